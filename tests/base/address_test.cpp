@@ -1,14 +1,9 @@
 #include "base/address.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 std::string fault_of(const std::string& text) {
   const auto address = parse_address(text);
@@ -58,10 +53,9 @@ TEST(Numbers, AreLookedUp) {
 }
 
 TEST(Numbers, OfAnUnknownNameAreNamedAsSuch) {
-  const auto numbers = numbers_of("no-such-host.invalid");
-  ASSERT_FALSE(numbers);
-  EXPECT_EQ(numbers.error().kind, ErrorKind::Unavailable);
-  EXPECT_THAT(numbers.error().message, HasSubstr("the name `no-such-host.invalid`"));
+  const Error numbers = why_not(numbers_of("no-such-host.invalid"));
+  EXPECT_EQ(numbers.kind, ErrorKind::Unavailable);
+  EXPECT_THAT(numbers.message, HasSubstr("the name `no-such-host.invalid`"));
 }
 
 TEST(Numbers, ThatAreLinkLocalNeedTheirInterface) {

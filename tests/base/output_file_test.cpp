@@ -1,15 +1,12 @@
 #include "base/output_file.h"
 
-#include <gmock/gmock.h>
-
 #include <fstream>
 
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 

@@ -1,12 +1,9 @@
 #include "base/plain_text.h"
 
-#include <gmock/gmock.h>
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 TEST(Split, GivesOnePartMoreThanThereAreSeparators) {
   EXPECT_THAT(split("a,b", ','), ElementsAre("a", "b"));

@@ -1,23 +1,18 @@
-#include <gmock/gmock.h>
-
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/assessment_text.h"
 #include "sim/files/profile_file.h"
 #include "tests/cli/cli_support.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::cli {
 namespace {
 
 using nlohmann::json;
-using testing::AllOf;
 using testing::ContainsRegex;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 TEST(Assess, PrintsChecksRatesAndASummaryWithinAHundredColumns) {
-  const Ran ran = run({"assess"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"assess"});
   EXPECT_THAT(ran.out, ContainsRegex("\nexploration +gray arena +5  passes +[0-9]+ to [0-9]+ til"));
   EXPECT_THAT(ran.out, ContainsRegex("\nblack_floor +black spot, p = 0.3 +[0-9]+ +0\\.[0-9]+ +0"));
   EXPECT_THAT(ran.out,
@@ -36,8 +31,7 @@ TEST(Assess, ExitsWithOneWhenAModuleFailsAndSaysWhy) {
 }
 
 TEST(Assess, AnswersInJson) {
-  const Ran ran = run({"assess", "--profile", "argos3", "--json"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"assess", "--profile", "argos3", "--json"});
   const json report = json::parse(ran.out);
   EXPECT_EQ(report["flavour"], "watermelon");
   EXPECT_EQ(report["profile"], "argos3");
@@ -59,28 +53,22 @@ TEST(Assess, AnswersInJson) {
 
 // The flavour says which robot, the robot which profile.
 TEST(Assess, TakesTheRobotThatTheFlavourFits) {
-  const Ran ran = run({"assess", "--flavour", "chocolate-epuck"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"assess", "--flavour", "chocolate-epuck"});
   EXPECT_THAT(ran.out, HasSubstr("\n12 of 12 modules pass: flavour chocolate-epuck, profile epuck, "
                                  "robot epuck\n"));
   const std::string turtlebot = SWARMSMITH_SOURCE_DIR "/examples/missions/robots/turtlebot4.toml";
   const Ran own = run({"assess", "--flavour", "chocolate", "--robot", turtlebot});
   EXPECT_THAT(own.out,
               HasSubstr(" modules pass: flavour chocolate, profile rvr, robot turtlebot4\n"));
-  const Ran misfit = run({"assess", "--robot", "epuck"});
-  EXPECT_EQ(misfit.code, 2);
-  EXPECT_THAT(misfit.err, AllOf(HasSubstr("--flavour: the flavour `watermelon` takes distances"),
-                                HasSubstr("; give another --flavour or --robot\n")));
+  EXPECT_THAT(refusal({"assess", "--robot", "epuck"}),
+              AllOf(HasSubstr("--flavour: the flavour `watermelon` takes distances"),
+                    HasSubstr("; give another --flavour or --robot\n")));
 }
 
 TEST(Assess, RefusesWhatItDoesNotKnow) {
-  const Ran flavour = run({"assess", "--flavour", "melon"});
-  EXPECT_EQ(flavour.code, 2);
-  EXPECT_THAT(flavour.out, IsEmpty());
-  EXPECT_THAT(flavour.err, HasSubstr("--flavour: there is no flavour `melon`; known are: "));
-  const Ran profile = run({"assess", "--profile", "mars"});
-  EXPECT_EQ(profile.code, 2);
-  EXPECT_THAT(profile.err, HasSubstr("--profile: "));
+  EXPECT_THAT(refusal({"assess", "--flavour", "melon"}),
+              HasSubstr("--flavour: there is no flavour `melon`; known are: "));
+  EXPECT_THAT(refusal({"assess", "--profile", "mars"}), HasSubstr("--profile: "));
 }
 
 TEST(AssessmentText, MarksARateOutsideOfItsIntervalAndOneWithoutTrials) {

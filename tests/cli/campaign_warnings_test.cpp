@@ -1,15 +1,10 @@
 #include "cli/run/campaign_warnings.h"
 
-#include <gmock/gmock.h>
-
 #include "coordinator/campaign/campaign_file.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::cli {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 Campaign campaign_of(const std::string& method, const std::string& rest = "") {
   const auto campaign =

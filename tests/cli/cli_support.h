@@ -33,6 +33,21 @@ inline Ran run(const std::vector<std::string>& arguments) {
   return {static_cast<int>(code), out.str(), err.str()};
 }
 
+/// The same where all is well.
+inline Ran run_well(const std::vector<std::string>& arguments) {
+  Ran ran = run(arguments);
+  EXPECT_EQ(ran.code, 0) << testing::PrintToString(arguments) << ": " << ran.err;
+  return ran;
+}
+
+/// What is said of words or files that are wrong, with exit code 2 and nothing beside it.
+inline std::string refusal(const std::vector<std::string>& arguments) {
+  const Ran ran = run(arguments);
+  EXPECT_EQ(ran.code, 2) << testing::PrintToString(arguments);
+  EXPECT_EQ(ran.out, "") << testing::PrintToString(arguments);
+  return ran.err;
+}
+
 inline const std::string kExploreText = "--nstates 1 --s0 0 --rwm0 10";
 inline const std::string kStopText = "--nstates 1 --s0 1";
 

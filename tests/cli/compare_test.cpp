@@ -1,17 +1,14 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_support.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::cli {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::StartsWith;
 
 /// Twelve designs of one mission, six of each of two methods. Each winner got 1 in reality.
 struct Compare : testing::Test {
@@ -47,8 +44,7 @@ struct Compare : testing::Test {
 };
 
 TEST_F(Compare, BySourceIsTheDefault) {
-  const Ran ran = run({"compare", store_});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"compare", store_});
   EXPECT_THAT(ran.out, HasSubstr("aggregation  chocolate   rvr    real    6"));
   EXPECT_THAT(ran.out, HasSubstr("aggregation  watermelon  rvr    real    6"));
   EXPECT_THAT(ran.out, HasSubstr("Wilcoxon signed-rank test, two-sided"));
@@ -56,8 +52,7 @@ TEST_F(Compare, BySourceIsTheDefault) {
 }
 
 TEST_F(Compare, ByMethodIsWithinASource) {
-  const Ran ran = run({"compare", store_, "--by", "method"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"compare", store_, "--by", "method"});
   EXPECT_THAT(ran.out, HasSubstr("aggregation  rvr     chocolate  watermelon  6+6"));
   EXPECT_THAT(ran.out, HasSubstr("aggregation  real    chocolate  watermelon  6+6"));
 }
@@ -69,18 +64,13 @@ TEST_F(Compare, WithOneSourceComparesTheMethods) {
     design.method = design.id.value % 2 == 1 ? "chocolate" : "watermelon";
   }
   const std::string alone = (folder / "one.db").string();
-  {
-    auto store = open_store(alone, campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
-  }
+  fill_store(alone, campaign);
   EXPECT_EQ(run({"compare", alone}).out, run({"compare", alone, "--by", "method"}).out);
   EXPECT_THAT(run({"compare", alone}).out, HasSubstr("chocolate  watermelon  3+3"));
 }
 
 TEST_F(Compare, AMatrixSaysWhichMethodWinsWhere) {
-  const Ran text = run({"compare", store_, "--matrix"});
-  EXPECT_EQ(text.code, 0) << text.err;
+  const Ran text = run_well({"compare", store_, "--matrix"});
   EXPECT_THAT(text.out, HasSubstr("\nrvr\nmethod"));
   EXPECT_THAT(text.out, HasSubstr("do\nnot differ at 5 %"));
   const json answer = json::parse(run({"compare", store_, "--matrix", "--json"}).out);
@@ -97,8 +87,7 @@ TEST_F(Compare, AMatrixSaysWhichMethodWinsWhere) {
 }
 
 TEST_F(Compare, WritesJson) {
-  const Ran ran = run({"compare", store_, "--by", "method", "--source", "rvr", "--json"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"compare", store_, "--by", "method", "--source", "rvr", "--json"});
   const json answer = json::parse(ran.out);
   EXPECT_EQ(answer["by"], "method");
   EXPECT_EQ(answer["groups"].size(), 2U);

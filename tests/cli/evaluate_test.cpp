@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -9,15 +7,15 @@
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
 #include "tests/cli/cli_support.h"
+#include "tests/support/checks.h"
+#include "tests/support/not_empty.h"
 #include "tests/support/one_design.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith::cli {
 namespace {
 
 using nlohmann::json;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
 
 std::vector<json> lines_of(const std::string& text) {
   std::vector<json> lines;
@@ -42,9 +40,8 @@ double score_of(const std::string& mission_name, std::int64_t seed) {
 }
 
 TEST(Evaluate, GivesOneJsonLineARunWithSeedAndScore) {
-  const Ran ran = run({"evaluate", kExploreText, "--flavour", "watermelon", "--profile", "rvr",
-                       "--mission", "grid_exploration", "--seeds", "4-5", "--json"});
-  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"evaluate", kExploreText, "--flavour", "watermelon", "--profile", "rvr",
+                            "--mission", "grid_exploration", "--seeds", "4-5", "--json"});
   const auto lines = lines_of(ran.out);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0], (json{{"seed", 4}, {"score", score_of("grid_exploration", 4)}}));
@@ -77,9 +74,8 @@ TEST(Evaluate, TakesAMachineAsSeveralWordsBeforeAfterAndBehindDashes) {
 TEST(Evaluate, TakesAMachineFromAFileWithComments) {
   const TemporaryFolder folder;
   write_file(folder / "best.fsm", "# d1 c1\n\n--fsm-config " + kExploreText + "\n");
-  const Ran ran = run({"evaluate", (folder / "best.fsm").string(), "--flavour", "watermelon",
-                       "--mission", "aggregation"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"evaluate", (folder / "best.fsm").string(), "--flavour", "watermelon",
+                            "--mission", "aggregation"});
   EXPECT_THAT(ran.out, HasSubstr("seed 10  score "));
   EXPECT_THAT(ran.out, HasSubstr("95 % interval"));
 }
@@ -91,17 +87,15 @@ TEST(Evaluate, TakesTheWorldThatAFileSays) {
       "#: format = 1\n#: flavour = \"watermelon\"\n#: profile = \"rvr\"\n"
       "#: mission = \"grid_exploration\"\n#: candidate = \"c7\"\n#: seeds = \"4,5\"\n";
   write_file(file, head + kExploreText + "\n" + head + kStopText + "\n");
-  const Ran ran = run({"evaluate", file, "--json"});
-  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"evaluate", file, "--json"});
   const auto lines = lines_of(ran.out);
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_EQ(lines[0],
             (json{{"machine", "c7"}, {"seed", 4}, {"score", score_of("grid_exploration", 4)}}));
   EXPECT_EQ(lines[1]["score"], score_of("grid_exploration", 5));
-  const Ran other = run({"evaluate", file, "--flavour", "chocolate"});
-  EXPECT_EQ(other.code, 2);
-  EXPECT_THAT(other.err, HasSubstr("the machine is of the flavour watermelon (" + file +
-                                   ":7), not chocolate"));
+  EXPECT_THAT(
+      refusal({"evaluate", file, "--flavour", "chocolate"}),
+      HasSubstr("the machine is of the flavour watermelon (" + file + ":7), not chocolate"));
   // Another mission or profile is a question that people have.
   EXPECT_EQ(run({"evaluate", file, "--mission", "aggregation", "--profile", "argos3"}).code, 0);
 }
@@ -110,9 +104,8 @@ TEST(Evaluate, AsksForAFlavourThatNobodySays) {
   const TemporaryFolder folder;
   write_file(folder / "best.fsm", kExploreText + "\n");
   for (const std::string& machine : {kExploreText, (folder / "best.fsm").string()}) {
-    const Ran ran = run({"evaluate", machine, "--mission", "aggregation"});
-    EXPECT_EQ(ran.code, 2);
-    EXPECT_THAT(ran.err, HasSubstr("--flavour: the machine's flavour is unknown; add"));
+    EXPECT_THAT(refusal({"evaluate", machine, "--mission", "aggregation"}),
+                HasSubstr("--flavour: the machine's flavour is unknown; add"));
   }
 }
 
@@ -128,10 +121,7 @@ TEST(Evaluate, TakesStartsFromATable) {
   seeds.emplace_back("5");
   EXPECT_EQ(run(seeds).out, "{\"seed\":5,\"score\":1}\n");
   seeds.back() = "5-6";
-  const Ran missing = run(seeds);
-  EXPECT_EQ(missing.code, 2);
-  EXPECT_EQ(missing.out, "");
-  EXPECT_THAT(missing.err, HasSubstr("the starts have no row for seed 6"));
+  EXPECT_THAT(refusal(seeds), HasSubstr("the starts have no row for seed 6"));
   seeds.back() = "5";
   EXPECT_THAT(run(seeds).err, Not(HasSubstr("overlap")));
   for (const char* option : {"--csv", "--objects-csv", "--svg"}) {
@@ -169,35 +159,32 @@ TEST(Evaluate, TakesPatchesFromATable) {
                                       "1"};
   EXPECT_EQ(run(command).out, "{\"seed\":1,\"score\":3}\n");
   write_file(folder / "patches.csv", "seed,x,y,color\n1,0.7,0.25,yellow\n");
-  const Ran ran = run(command);
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("patches, seed 1: there is no free place for a patch at (0.7"));
+  EXPECT_THAT(refusal(command),
+              HasSubstr("patches, seed 1: there is no free place for a patch at (0.7"));
 }
 
 TEST(Evaluate, TakesMissionAndProfileFromFiles) {
   const TemporaryFolder folder;
   write_file(folder / "mine.toml", "format = 1\npreset = \"grid_exploration\"\n");
-  ASSERT_EQ(run({"profile", "rvr", "-o", (folder / "my_rvr.toml").string()}).code, 0);
+  run_well({"profile", "rvr", "-o", (folder / "my_rvr.toml").string()});
   const std::vector<std::string> command = {"evaluate",  kExploreText,
                                             "--flavour", "watermelon",
                                             "--mission", (folder / "mine.toml").string(),
                                             "--profile", (folder / "my_rvr.toml").string(),
                                             "--seeds",   "4",
                                             "--json"};
-  const Ran ran = run(command);
-  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well(command);
   EXPECT_EQ(lines_of(ran.out)[0]["score"], score_of("grid_exploration", 4));
   write_file(folder / "mine.toml", "format = 1\nrobots = 0\nfloor = 1\n");
-  const Ran wrong = run(command);
-  EXPECT_EQ(wrong.code, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("mine.toml:2:10: `robots` must be from 1 to 100"));
-  EXPECT_THAT(wrong.err, HasSubstr("mine.toml:3:1: the file has no key `floor`"));
+  const std::string wrong = refusal(command);
+  EXPECT_THAT(wrong, HasSubstr("mine.toml:2:10: `robots` must be from 1 to 100"));
+  EXPECT_THAT(wrong, HasSubstr("mine.toml:3:1: the file has no key `floor`"));
 }
 
 TEST(Evaluate, TakesAFlavourFromAFile) {
   const TemporaryFolder folder;
   const std::string file = (folder / "mine.toml").string();
-  ASSERT_EQ(run({"flavour", "watermelon", "-o", file}).code, 0);
+  run_well({"flavour", "watermelon", "-o", file});
   const auto evaluate = [](const std::string& machine, const std::string& flavour) {
     return run({"evaluate", machine, "--flavour", flavour, "--mission", "grid_exploration",
                 "--seeds", "4", "--json"});
@@ -225,7 +212,7 @@ TEST(Evaluate, TakesAFlavourFromAFile) {
 }
 
 TEST(Flavours, AreListedPrintedAndWrittenButNotOver) {
-  EXPECT_THAT(run({"flavour"}).out, testing::StartsWith("watermelon\nwatermelon-argos3\n"));
+  EXPECT_THAT(run({"flavour"}).out, StartsWith("watermelon\nwatermelon-argos3\n"));
   EXPECT_THAT(run({"flavour", "chocolate"}).out, HasSubstr("[behaviours]\n"));
   EXPECT_EQ(json::parse(run({"flavour", "--json"}).out)["flavours"].size(), all_flavours().size());
   const json listed = json::parse(run({"ls", "flavours", "--json"}).out);
@@ -253,7 +240,7 @@ TEST(Robots, AreListed) {
 
 TEST(Evaluate, NamesAllProfilesInItsHelp) {
   const std::string help = run({"evaluate", "--help"}).out;
-  for (const std::string& name : profile_names())
+  for (const std::string& name : not_empty(profile_names()))
     EXPECT_THAT(help, HasSubstr(name));
 }
 
@@ -272,7 +259,7 @@ TEST(Profiles, AreListedPrintedAndWrittenButNotOver) {
 
 TEST(Profiles, OfAFileArePrintedWhole) {
   const TemporaryFolder folder;
-  for (const std::string& name : profile_names()) {
+  for (const std::string& name : not_empty(profile_names())) {
     const std::filesystem::path mine = folder / "mine.toml";
     write_file(mine, "format = 1\nbase = \"" + name + "\"\ncontacts = \"box2d\"\n");
     const auto printed = parse_profile(run({"profile", mine.string()}).out, mine);
@@ -287,14 +274,12 @@ TEST(Evaluate, WritesARunDown) {
   const TemporaryFolder folder;
   write_file(folder / "best.fsm", kExploreText + "\n");
   const std::string svg = (folder / "run.svg").string();
-  const Ran ran = run({"evaluate", (folder / "best.fsm").string(), "--flavour", "watermelon",
-                       "--mission", "aggregation", "--seeds", "7", "--csv", "-", "--svg", svg});
-  ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, testing::StartsWith("cycle,time_s,robot,x,y,theta,cmd_left,"));
+  const Ran ran =
+      run_well({"evaluate", (folder / "best.fsm").string(), "--flavour", "watermelon", "--mission",
+                "aggregation", "--seeds", "7", "--csv", "-", "--svg", svg});
+  EXPECT_THAT(ran.out, StartsWith("cycle,time_s,robot,x,y,theta,cmd_left,"));
   EXPECT_THAT(ran.err, HasSubstr("seed 7  score "));
-  std::ostringstream drawn;
-  drawn << std::ifstream(svg).rdbuf();
-  EXPECT_THAT(drawn.str(), HasSubstr(">best.fsm \xc2\xb7 seed 7 \xc2\xb7 score "));
+  EXPECT_THAT(whole_file(svg), HasSubstr(">best.fsm \xc2\xb7 seed 7 \xc2\xb7 score "));
 }
 
 TEST(Evaluate, WritesOverAFileOfItsKindAlone) {
@@ -339,17 +324,14 @@ TEST(Evaluate, ExplainsWhatIsWrongWithItsArguments) {
     if (!words[1].starts_with("c") && std::ranges::find(words, "--flavour") == words.end()) {
       words.insert(words.end(), {"--flavour", "watermelon"});
     }
-    const Ran ran = run(words);
-    EXPECT_EQ(ran.code, 2) << misuse.sentence;
-    EXPECT_THAT(ran.err, HasSubstr(misuse.sentence));
+    EXPECT_THAT(refusal(words), HasSubstr(misuse.sentence));
   }
 }
 
 using EvaluateFromStore = WithStore;
 
 TEST_F(EvaluateFromStore, TakesFlavourProfileAndMissionFromTheCandidatesCampaign) {
-  const Ran ran = run({"evaluate", "c1", "--store", store_, "--seeds", "1-2", "--json"});
-  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"evaluate", "c1", "--store", store_, "--seeds", "1-2", "--json"});
   EXPECT_EQ(lines_of(ran.out)[1]["score"], score_of("aggregation", 2));
 }
 
@@ -410,10 +392,7 @@ TEST_F(EvaluateFromStore, StoresNothingThatIsNoScoreOfTheDesign) {
   for (const Misuse& misuse : misuses) {
     std::vector<std::string> words = {"evaluate", "c1", "--store", store_, "--seeds", "2"};
     words.insert(words.end(), misuse.words.begin(), misuse.words.end());
-    const Ran ran = run(words);
-    EXPECT_EQ(ran.code, 2) << misuse.sentence;
-    EXPECT_THAT(ran.err, HasSubstr(misuse.sentence));
-    EXPECT_THAT(ran.err, HasSubstr("--no-store"));
+    EXPECT_THAT(refusal(words), AllOf(HasSubstr(misuse.sentence), HasSubstr("--no-store")));
   }
   EXPECT_EQ(run({"evaluate", "c1", "--store", store_, "--seeds", "2", "--no-store"}).code, 0);
   EXPECT_EQ(run({"evaluate", "best", "--design", "d2", "--store", store_}).code, 4);

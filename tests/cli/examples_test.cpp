@@ -1,22 +1,17 @@
-#include <gmock/gmock.h>
-
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 #include "sim/mission/polygon.h"
 #include "tests/cli/cli_support.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::cli {
 namespace {
 
 Campaign example(const std::string& name) {
   const auto file = std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "examples" / (name + ".toml");
-  auto campaign = read_campaign(file);
-  if (campaign) return *campaign;
-  for (const Error& error : campaign.error())
-    ADD_FAILURE() << to_string(error);
-  return {};
+  return value_of(read_campaign(file));
 }
 
 TEST(Examples, OfEachMissionRunAsTheyAre) {
@@ -47,9 +42,8 @@ Mission example_mission(const std::string& name) {
     ADD_FAILURE() << to_string(entry.error().front());
     return {};
   }
-  const Ran ran = run({"evaluate", kExploreText, "--flavour", "watermelon", "--mission",
-                       file.string(), "--seeds", "1-3"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"evaluate", kExploreText, "--flavour", "watermelon", "--mission",
+                            file.string(), "--seeds", "1-3"});
   return std::move(entry->mission);
 }
 

@@ -1,14 +1,12 @@
-#include <gmock/gmock.h>
-
 #include <filesystem>
 
 #include "tests/cli/cli_support.h"
+#include "tests/support/checks.h"
 #include "tests/support/one_design.h"
 
 namespace swarmsmith::cli {
 namespace {
 
-using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 constexpr const char* kTwoMissions =
@@ -21,8 +19,7 @@ class ExportIrace : public WithStore {
 };
 
 TEST_F(ExportIrace, WritesAFolderFromAStore) {
-  const Ran ran = run({"export", store_, "--format", "irace", "-o", folder()});
-  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"export", store_, "--format", "irace", "-o", folder()});
   EXPECT_EQ(ran.out, folder() + "\n");
   for (const char* name : {"README", "campaign.toml", "instances.txt", "parameters.txt",
                            "scenario.txt", "target-runner", "test-instances.txt"}) {
@@ -36,22 +33,19 @@ TEST_F(ExportIrace, WritesAFolderFromAStore) {
 }
 
 TEST_F(ExportIrace, NeverOverwrites) {
-  ASSERT_EQ(run({"export", store_, "--format", "irace", "-o", folder()}).code, 0);
-  const Ran again = run({"export", store_, "--format", "irace", "-o", folder()});
-  EXPECT_EQ(again.code, 2);
-  EXPECT_THAT(again.err, HasSubstr("is there already"));
+  run_well({"export", store_, "--format", "irace", "-o", folder()});
+  EXPECT_THAT(refusal({"export", store_, "--format", "irace", "-o", folder()}),
+              HasSubstr("is there already"));
 }
 
 TEST_F(ExportIrace, WantsToKnowWhichDesignWhereTheyDiffer) {
   const std::string file = (folder_ / "two.toml").string();
   write_file(file, kTwoMissions);
-  const Ran ran = run({"export", file, "--format", "irace", "-o", folder()});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("d1 aggregation w repetition 1, d2 grid_exploration w"));
+  EXPECT_THAT(refusal({"export", file, "--format", "irace", "-o", folder()}),
+              HasSubstr("d1 aggregation w repetition 1, d2 grid_exploration w"));
   EXPECT_FALSE(fs::exists(folder()));
-  const Ran none = run({"export", file, "--format", "irace", "--design", "d3", "-o", folder()});
-  EXPECT_EQ(none.code, 2);
-  EXPECT_THAT(none.err, HasSubstr("no design d3"));
+  EXPECT_THAT(refusal({"export", file, "--format", "irace", "--design", "d3", "-o", folder()}),
+              HasSubstr("no design d3"));
   EXPECT_EQ(run({"export", file, "--format", "irace", "--design", "d2", "-o", folder()}).code, 0);
 }
 
@@ -59,9 +53,8 @@ TEST_F(ExportIrace, SaysWhatIsWrong) {
   EXPECT_THAT(run({"export", store_, "--format", "irace"}).err, HasSubstr("-o FOLDER"));
   const std::string file = (folder_ / "bad.toml").string();
   write_file(file, "format = 1\n");
-  const Ran bad = run({"export", file, "--format", "irace", "-o", folder()});
-  EXPECT_EQ(bad.code, 2);
-  EXPECT_THAT(bad.err, HasSubstr("bad.toml:"));
+  EXPECT_THAT(refusal({"export", file, "--format", "irace", "-o", folder()}),
+              HasSubstr("bad.toml:"));
 }
 
 TEST_F(ExportIrace, EvaluateTakesItsWorldFromACampaign) {
@@ -73,9 +66,8 @@ TEST_F(ExportIrace, EvaluateTakesItsWorldFromACampaign) {
       {"evaluate", kExploreText, "--campaign", file, "--design", "d2", "--seeds", "7-9", "--json"});
   EXPECT_EQ(taken.code, 0) << taken.err;
   EXPECT_EQ(taken.out, named.out);
-  const Ran unclear = run({"evaluate", kExploreText, "--campaign", file});
-  EXPECT_EQ(unclear.code, 2);
-  EXPECT_THAT(unclear.err, HasSubstr("no design given"));
+  EXPECT_THAT(refusal({"evaluate", kExploreText, "--campaign", file}),
+              HasSubstr("no design given"));
 }
 
 }  // namespace

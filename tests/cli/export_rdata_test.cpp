@@ -1,15 +1,15 @@
-#include <gmock/gmock.h>
 #include <stdlib.h>
 
 #include <filesystem>
 
 #include "coordinator/results/irace_log.h"
 #include "tests/cli/cli_support.h"
+#include "tests/support/checks.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith::cli {
 namespace {
 
-using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 constexpr const char* kPrograms = R"(format = 1
@@ -40,10 +40,8 @@ evaluator = "/bin/true"
 
 /// A store of a race of programs with a targetEvaluator: its costs are the calls' last words.
 void write_programs_store(const fs::path& file) {
-  const auto campaign = parse_campaign(kPrograms, "programs.toml");
-  ASSERT_TRUE(campaign) << to_string(campaign.error().front());
-  auto store = Store::open(file, campaign_row(*campaign), design_rows(*campaign));
-  ASSERT_TRUE(store) << to_string(store.error());
+  const auto campaign = value_of(parse_campaign(kPrograms, "programs.toml"));
+  auto store = value_of(Store::open(file, campaign_row(campaign), design_rows(campaign)));
   const DesignId design{1};
   const CandidateId one = candidate_id(design, 1);
   const CandidateId two = candidate_id(design, 2);
@@ -65,7 +63,7 @@ void write_programs_store(const fs::path& file) {
   rejected.status = EvaluationStatus::Rejected;
   EvaluationRow unused = run(two, Purpose::Race, 3, -7);
   unused.iteration = 0;
-  (*store)->append({
+  store->append({
       IterationRow{.design = design, .number = 1, .of = 3, .soft_restart = true},
       CandidateRow{.id = one,
                    .iteration = 1,
@@ -108,17 +106,13 @@ void write_programs_store(const fs::path& file) {
                      .reason = "budget exhausted"},
       CampaignStateRow{.state = "finished"},
   });
-  ASSERT_TRUE((*store)->flush());
+  ASSERT_TRUE(store->flush());
 }
 
 class ExportRdata : public WithStore {
  protected:
   std::string place(const char* name) const { return (folder_ / name).string(); }
-  std::string table(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / ("log/" + name)).rdbuf();
-    return text.str();
-  }
+  std::string table(const std::string& name) const { return whole_file(folder_ / ("log/" + name)); }
   Ran exported(const std::string& store) {
     return run({"export", store, "--format", "rdata", "-o", place("log/")});
   }
@@ -170,8 +164,7 @@ TEST_F(ExportRdata, OfARaceThatCapsHasTheCostsThatTheRaceCounted) {
   text.replace(text.find("max_experiments = 400"), 21,
                "max_experiments = 400\ncapping = true\nbound_max = 20\nbound_par = 2");
   text.erase(text.find("evaluator = \"/bin/true\"\n"), 24);
-  const auto campaign = parse_campaign(text, "capping.toml");
-  ASSERT_TRUE(campaign) << to_string(campaign.error().front());
+  const auto campaign = value_of(parse_campaign(text, "capping.toml"));
   const CandidateId one = candidate_id({1}, 1);
   std::vector<Row> rows{IterationRow{.design = {1}, .number = 1, .of = 3},
                         CandidateRow{.id = one,
@@ -194,10 +187,9 @@ TEST_F(ExportRdata, OfARaceThatCapsHasTheCostsThatTheRaceCounted) {
   }
   {
     const auto store =
-        Store::open(place("cap.db"), campaign_row(*campaign), design_rows(*campaign));
-    ASSERT_TRUE(store);
-    (*store)->append(std::move(rows));
-    ASSERT_TRUE((*store)->flush());
+        value_of(Store::open(place("cap.db"), campaign_row(campaign), design_rows(campaign)));
+    store->append(std::move(rows));
+    ASSERT_TRUE(store->flush());
   }
   const Ran ran = exported(place("cap.db"));
   ASSERT_EQ(ran.code, 0) << ran.err;
@@ -214,15 +206,11 @@ TEST_F(ExportRdata, IsReadBackByImport) {
     const std::size_t at = text.find("\n1,2,");
     return text.replace(at, 5, "\n1,,");
   }());
-  const Ran ran = run({"import", place("log"), "--into", place("again.db")});
-  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"import", place("log"), "--into", place("again.db")});
   fs::rename(place("log"), place("first"));
   ASSERT_EQ(exported(place("again.db")).code, 0);
-  for (const std::string& name : irace_log_files()) {
-    std::ostringstream first;
-    first << std::ifstream(folder_ / ("first/" + name)).rdbuf();
-    EXPECT_EQ(table(name), first.str()) << name;
-  }
+  for (const std::string& name : irace_log_files())
+    EXPECT_EQ(table(name), whole_file(folder_ / ("first/" + name))) << name;
 }
 
 TEST_F(ExportRdata, SaysWhatIsWrong) {
@@ -252,10 +240,9 @@ TEST_F(ExportRdata, WantsToKnowWhichOfSeveralDesigns) {
   write_file(file,
              "format = 1\n[campaign]\nrepetitions = 2\n[[mission]]\nname = \"aggregation\"\n"
              "[[method]]\nname = \"w\"\n[race]\nmax_experiments = 2000\n");
-  const auto campaign = read_campaign(file);
-  ASSERT_TRUE(campaign);
+  const auto campaign = value_of(read_campaign(file));
   ASSERT_TRUE(
-      (*Store::open(place("two.db"), campaign_row(*campaign), design_rows(*campaign)))->flush());
+      (*Store::open(place("two.db"), campaign_row(campaign), design_rows(campaign)))->flush());
   const Ran ran = exported(place("two.db"));
   EXPECT_EQ(ran.code, 2);
   EXPECT_THAT(ran.err, HasSubstr("d1 aggregation w repetition 1, d2 aggregation w repetition 2"));

@@ -1,14 +1,10 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 
 #include "tests/cli/cli_support.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::cli {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 /// Aggregation with five robots for ten seconds, as heads of exported files have it, and as a file.
 const std::string kMission =
@@ -45,17 +41,14 @@ std::vector<std::string> scores_in(const std::string& json_lines) {
 
 TEST_F(Import, KeepsTheWholeMissionAndProfileOfAHead) {
   const std::string machines = file("m.fsm", kHead + kExploreText + "\n");
-  const Ran imported = run({"import", machines, "--into", store_});
-  ASSERT_EQ(imported.code, 0) << imported.err;
-  const Ran direct = run({"evaluate", machines, "--seeds", "1-3", "--json"});
-  ASSERT_EQ(direct.code, 0) << direct.err;
-  const Ran stored = run({"evaluate", "best", store_, "--seeds", "1-3", "--json", "--no-store"});
-  ASSERT_EQ(stored.code, 0) << stored.err;
+  const Ran imported = run_well({"import", machines, "--into", store_});
+  const Ran direct = run_well({"evaluate", machines, "--seeds", "1-3", "--json"});
+  const Ran stored =
+      run_well({"evaluate", "best", store_, "--seeds", "1-3", "--json", "--no-store"});
   EXPECT_EQ(scores_in(stored.out), scores_in(direct.out));
   EXPECT_THAT(stored.out, HasSubstr("argos3"));
   // What is exported again says it, too.
-  const Ran exported = run({"export", store_, "--design", "d1"});
-  ASSERT_EQ(exported.code, 0) << exported.err;
+  const Ran exported = run_well({"export", store_, "--design", "d1"});
   EXPECT_THAT(exported.out, AllOf(HasSubstr("#: robots = 5\n"), HasSubstr("\"argos3\"")));
 }
 
@@ -66,20 +59,17 @@ TEST_F(Import, TakesAMissionFile) {
       run({"import", machines, "--flavour", "watermelon", "--mission", mission, "--into", store_});
   ASSERT_EQ(all.code, 0) << all.err;
   const std::string table = file("m.csv", "mission,fsm\nhole," + kExploreText + "\n");
-  const Ran one = run({"import", table, "--flavour", "watermelon", "--mission", "hole=" + mission,
-                       "--into", store_});
-  ASSERT_EQ(one.code, 0) << one.err;
+  const Ran one = run_well({"import", table, "--flavour", "watermelon", "--mission",
+                            "hole=" + mission, "--into", store_});
   const Ran direct = run({"evaluate", machines, "--flavour", "watermelon", "--mission", mission,
                           "--seeds", "7", "--json"});
-  const Ran stored = run({"evaluate", "best", store_, "--seeds", "7", "--json"});
-  ASSERT_EQ(stored.code, 0) << stored.err;
+  const Ran stored = run_well({"evaluate", "best", store_, "--seeds", "7", "--json"});
   auto wanted = scores_in(direct.out);
   wanted.push_back(wanted.front());
   EXPECT_EQ(scores_in(stored.out), wanted);
-  const Ran missing = run({"import", machines, "--flavour", "watermelon", "--mission",
-                           (folder_ / "none.toml").string(), "--into", store_});
-  EXPECT_EQ(missing.code, 2);
-  EXPECT_THAT(missing.err, HasSubstr("none.toml"));
+  EXPECT_THAT(refusal({"import", machines, "--flavour", "watermelon", "--mission",
+                       (folder_ / "none.toml").string(), "--into", store_}),
+              HasSubstr("none.toml"));
 }
 
 TEST_F(Import, SaysThatTheStoreHasAnotherMissionOfThisName) {
@@ -106,16 +96,12 @@ TEST_F(Import, RefusesMachinesBehindOptionsOfAnotherProgram) {
            {"evaluate", machines, "--flavour", "chocolate", "--mission", "aggregation"},
            {"evaluate", "--robots 22 --rabsi 2 --rabar 0.7 " + kStopText, "--flavour", "chocolate",
             "--mission", "aggregation"}}) {
-    const Ran ran = run(words);
-    EXPECT_EQ(ran.code, 2);
-    EXPECT_EQ(ran.out, "");
-    EXPECT_THAT(ran.err, HasSubstr("`--robots`, `--rabsi`, `--rabar`"));
+    EXPECT_THAT(refusal(words), HasSubstr("`--robots`, `--rabsi`, `--rabar`"));
   }
   EXPECT_FALSE(std::filesystem::exists(store_));
-  const Ran words = run({"evaluate", "--robots", "22", "--nstates", "1", "--s0", "1", "--flavour",
-                         "chocolate", "--mission", "aggregation"});
-  EXPECT_EQ(words.code, 2);
-  EXPECT_THAT(words.err, HasSubstr("--robots"));
+  EXPECT_THAT(refusal({"evaluate", "--robots", "22", "--nstates", "1", "--s0", "1", "--flavour",
+                       "chocolate", "--mission", "aggregation"}),
+              HasSubstr("--robots"));
 }
 
 TEST_F(Import, ReadsGenomesAndTreesOfTheOlderForm) {
@@ -130,9 +116,8 @@ TEST_F(Import, ReadsGenomesAndTreesOfTheOlderForm) {
     genome += "gene 0 " + std::to_string(i % 15 + 1) + (i < 15 ? " 16 " : " 17 ") + "0.5 0 0 1 1\n";
   genome += "genomeend 1\n";
   const std::string gen = file("gen_0", genome);
-  const Ran scored = run({"evaluate", gen, "--flavour", "chocolate", "--mission", "aggregation",
-                          "--seeds", "1", "--json"});
-  ASSERT_EQ(scored.code, 0) << scored.err;
+  const Ran scored = run_well({"evaluate", gen, "--flavour", "chocolate", "--mission",
+                               "aggregation", "--seeds", "1", "--json"});
   EXPECT_THAT(scored.err, HasSubstr("read neighbours and floor in other units"));
   std::string weights = "0.5";
   for (int i = 1; i < 30; ++i)
@@ -150,11 +135,10 @@ TEST_F(Import, ReadsGenomesAndTreesOfTheOlderForm) {
   // A refusal is one line.
   std::string evolved = genome;
   evolved.insert(evolved.find("gene 0"), "node 19 0 0 0\n");
-  const Ran refused = run(
+  const std::string refused = refusal(
       {"evaluate", file("gen_1", evolved), "--flavour", "chocolate", "--mission", "aggregation"});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("a genome of NEAT with 1 hidden node"));
-  EXPECT_EQ(lines_in(refused.err), 1) << refused.err;
+  EXPECT_THAT(refused, HasSubstr("a genome of NEAT with 1 hidden node"));
+  EXPECT_EQ(lines_in(refused), 1) << refused;
 
   const std::vector<std::string> old = {"--rootnode", "0", "--nchildsroot", "1", "--n0",   "0",
                                         "--nc0",      "1", "--c0x0",        "0", "--p0x0", "0.5",
@@ -163,8 +147,7 @@ TEST_F(Import, ReadsGenomesAndTreesOfTheOlderForm) {
   words.insert(words.end(), old.begin(), old.end());
   for (const char* word : {"--flavour", "chocolate", "--mission", "aggregation", "--seeds", "1"})
     words.emplace_back(word);
-  const Ran tree = run(words);
-  EXPECT_EQ(tree.code, 0) << tree.err;
+  const Ran tree = run_well(words);
   std::string text;
   for (const std::string& word : old)
     text += word + " ";
@@ -190,16 +173,14 @@ TEST_F(Import, SaysOnceThatAFileIsOfAnotherKind) {
     for (const auto& words : std::vector<std::vector<std::string>>{
              {"evaluate", wrong, "--flavour", "chocolate", "--mission", "aggregation"},
              {"import", wrong, "--flavour", "chocolate", "--into", store_}}) {
-      const Ran ran = run(words);
-      EXPECT_EQ(ran.code, 2);
-      EXPECT_THAT(ran.err, AllOf(HasSubstr(wrong + ": this is a "), HasSubstr("; expected ")));
-      EXPECT_LE(lines_in(ran.err), 2) << ran.err;
+      const std::string said = refusal(words);
+      EXPECT_THAT(said, AllOf(HasSubstr(wrong + ": this is a "), HasSubstr("; expected ")));
+      EXPECT_LE(lines_in(said), 2) << said;
     }
   }
-  const Ran store =
-      run({"import", (folder_ / "demo.db").string(), "--flavour", "chocolate", "--into", store_});
-  EXPECT_EQ(store.code, 2);
-  EXPECT_THAT(store.err, HasSubstr("this is a store"));
+  EXPECT_THAT(refusal({"import", (folder_ / "demo.db").string(), "--flavour", "chocolate", "--into",
+                       store_}),
+              HasSubstr("this is a store"));
 }
 
 }  // namespace

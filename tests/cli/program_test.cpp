@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -9,40 +8,32 @@
 #include "sim/control/flavour.h"
 #include "sim/mission/score.h"
 #include "tests/cli/cli_support.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith::cli {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 TEST(Program, WithoutACommandExplainsItselfAndExitsWithTwo) {
-  const Ran ran = run({});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.out, IsEmpty());
-  EXPECT_THAT(ran.err, HasSubstr("Commands:"));
+  EXPECT_THAT(refusal({}), HasSubstr("Commands:"));
 }
 
 TEST(Program, SuggestsTheCommandThatWasMeant) {
-  const Ran ran = run({"evalute"});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("there is no command `evalute` (did you mean \"evaluate\"?)"));
+  EXPECT_THAT(refusal({"evalute"}),
+              HasSubstr("there is no command `evalute` (did you mean \"evaluate\"?)"));
 }
 
 TEST(Program, SuggestsTheOptionThatWasMeant) {
-  const Ran ran = run({"evaluate", "x", "--misson", "aggregation"});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("`evaluate` has no option `--misson` (did you mean "
-                                 "\"--mission\"?)"));
+  EXPECT_THAT(refusal({"evaluate", "x", "--misson", "aggregation"}),
+              HasSubstr("`evaluate` has no option `--misson` (did you mean "
+                        "\"--mission\"?)"));
 }
 
 TEST(Program, RefusesAWordTooMany) {
-  const Ran ran = run({"version", "now"});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("`now` is one word too many"));
+  EXPECT_THAT(refusal({"version", "now"}), HasSubstr("`now` is one word too many"));
 }
 
 TEST(Program, TakesNumbersWithUnderscores) {
@@ -53,9 +44,7 @@ TEST(Program, TakesNumbersWithUnderscores) {
 }
 
 TEST(Program, NamesWhatIsMissing) {
-  const Ran ran = run({"check"});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("FILE is required"));
+  EXPECT_THAT(refusal({"check"}), HasSubstr("FILE is required"));
 }
 
 TEST(Program, RefusesEveryEmptyPath) {
@@ -75,9 +64,8 @@ TEST(Program, RefusesEveryEmptyPath) {
       std::vector<std::string> words{command.at("name")};
       if (!is_word) words.push_back(name);
       words.emplace_back("");
-      const Ran ran = run(words);
-      EXPECT_EQ(ran.code, 2) << command.at("name") << " " << name;
-      EXPECT_THAT(ran.err, HasSubstr("the path is empty")) << command.at("name") << " " << name;
+      EXPECT_THAT(refusal(words), HasSubstr("the path is empty"))
+          << command.at("name") << " " << name;
       ++paths;
     }
   }
@@ -113,11 +101,9 @@ TEST(Program, ExplainsEveryCommandOnStandardOutput) {
 }
 
 TEST(Program, HasEveryCommandInItsManual) {
-  std::ifstream stream(std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "docs" / "command-line.md");
-  std::ostringstream manual;
-  manual << stream.rdbuf();
+  const std::string manual = whole_file(SWARMSMITH_SOURCE_DIR "/docs/command-line.md");
   for (const ProgramCommand& command : not_empty(commands())) {
-    EXPECT_THAT(manual.str(), HasSubstr("## `" + std::string(command.name)));
+    EXPECT_THAT(manual, HasSubstr("## `" + std::string(command.name)));
   }
 }
 
@@ -133,15 +119,14 @@ TEST(Init, WritesAFileThatCheckAccepts) {
   for (const char* mission : {"aggregation", "grid_exploration", "color_selection"}) {
     const std::string place = inside + mission;
     EXPECT_EQ(run({"init", place, "--mission", mission}).code, 0);
-    const auto campaign = read_campaign(place + "/campaign.toml");
-    ASSERT_TRUE(campaign) << to_string(campaign.error().front());
-    EXPECT_EQ(campaign->missions[0].mission.name, mission);
+    const auto campaign = value_of(read_campaign(place + "/campaign.toml"));
+    EXPECT_EQ(campaign.missions[0].mission.name, mission);
   }
 }
 
 TEST(Init, NamesEveryFlavourAndKindOfScore) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run({"init", folder.path().string()}).code, 0);
+  run_well({"init", folder.path().string()});
   const std::string text = *read_whole_file((folder / "campaign.toml").string());
   EXPECT_THAT(text, HasSubstr(fmt::format("# {}\n", fmt::join(score_kinds(), ", "))));
   for (const Flavour* flavour : flavours_for(kRvrModel))
@@ -151,16 +136,13 @@ TEST(Init, NamesEveryFlavourAndKindOfScore) {
 TEST(Init, NeverOverwrites) {
   const TemporaryFolder folder;
   write_file(folder / "campaign.toml", "mine");
-  const Ran ran = run({"init", folder.path().string()});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("is there already"));
+  EXPECT_THAT(refusal({"init", folder.path().string()}), HasSubstr("is there already"));
 }
 
 TEST(Check, ShowsThePlanAsJson) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run({"init", folder.path().string()}).code, 0);
-  const Ran ran = run({"check", (folder / "campaign.toml").string(), "--json"});
-  ASSERT_EQ(ran.code, 0) << ran.err;
+  run_well({"init", folder.path().string()});
+  const Ran ran = run_well({"check", (folder / "campaign.toml").string(), "--json"});
   const json plan = json::parse(ran.out);
   EXPECT_EQ(plan["designs"], 1);
   EXPECT_EQ(plan["experiments"], 10'000);
@@ -184,16 +166,14 @@ TEST(Check, SimulatesOnlyTheBeginningOfALongMission) {
 TEST(Check, PrintsAllThatIsWrongAndExitsWithTwo) {
   const TemporaryFolder folder;
   write_file(folder / "x.toml", "format = 1\nseed = 3\n");
-  const Ran ran = run({"check", (folder / "x.toml").string()});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.out, IsEmpty());
-  EXPECT_THAT(ran.err, HasSubstr("x.toml:2:1: the file has no key `seed`"));
-  EXPECT_THAT(ran.err, HasSubstr("no [[mission]]"));
+  EXPECT_THAT(
+      refusal({"check", (folder / "x.toml").string()}),
+      AllOf(HasSubstr("x.toml:2:1: the file has no key `seed`"), HasSubstr("no [[mission]]")));
 }
 
 TEST(Check, WarnsOfAFlavourThatNoiseBlinds) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run({"init", folder.path().string(), "--flavour", "watermelon-argos3"}).code, 0);
+  run_well({"init", folder.path().string(), "--flavour", "watermelon-argos3"});
   const Ran ran = run({"check", (folder / "campaign.toml").string()});
   EXPECT_EQ(ran.code, 0);
   EXPECT_THAT(ran.err, HasSubstr("black_floor hardly ever holds"));

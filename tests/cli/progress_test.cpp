@@ -1,13 +1,12 @@
 #include "cli/output/progress.h"
 #include "cli/output/number_text.h"
 
-#include <gmock/gmock.h>
-
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "cli/output/progress_text.h"
 #include "cli/run/campaign_plan.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -15,8 +14,6 @@ namespace {
 using nlohmann::json;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using testing::HasSubstr;
-using testing::Not;
 
 const std::vector<DesignRow> kDesigns = {
     {.id = {1}, .mission = "aggregation", .method = "m", .repetition = 1, .budget = 50'000},
@@ -189,7 +186,7 @@ TEST(ProgressOnATerminal, RedrawsOneLineBelowThoseOfTheRace) {
   Printer printer(output);
   printer.update();
   const std::string status = printer.err();
-  EXPECT_THAT(status, testing::StartsWith("\r\x1b[2Kdesigns 0/2"));
+  EXPECT_THAT(status, StartsWith("\r\x1b[2Kdesigns 0/2"));
   EXPECT_THAT(status, Not(HasSubstr("\n")));
   printer.add(kStep);
   const std::string step = printer.err();
@@ -309,7 +306,7 @@ TEST(Progress, OfSeveralCampaignsNamesThemAndAddsThemUp) {
   progress.restore(0, CommandRow{.number = 1, .kind = CommandKind::Pause, .design = {1}});
   err.str("");
   progress.finish(fleet());
-  EXPECT_THAT(err.str(), testing::StartsWith("campaigns 0/2  designs 1/4  50 000/200 000  "));
+  EXPECT_THAT(err.str(), StartsWith("campaigns 0/2  designs 1/4  50 000/200 000  "));
   EXPECT_THAT(err.str(), HasSubstr("  paused 1  "));
   output.json = true;
   Progress events(output, {{"first", kDesigns}, {"second", kDesigns}}, TimePoint{});

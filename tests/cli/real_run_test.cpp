@@ -1,8 +1,4 @@
-#include <gmock/gmock.h>
-
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "sim/control/machine_text.h"
@@ -13,16 +9,15 @@
 #include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"
 #include "tests/cli/cli_support.h"
+#include "tests/support/checks.h"
 #include "tests/support/one_design.h"
 #include "tests/support/synthetic_real_run.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith::cli {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 /// A filmed run of the demo's winner that a simulator made up: its trajectory, and its score.
 RealRunRows filmed(std::uint64_t number, CandidateId candidate) {
@@ -63,9 +58,8 @@ class RealRuns : public WithStore {
     add(filmed(2, {}));
   }
   void add(const RealRunRows& rows) {
-    auto store = StoreAtRest::open(store_, StoreAtRest::IfMissing::Make);
-    ASSERT_TRUE(store);
-    const auto written = (*store)->add_real_run(rows);
+    auto store = value_of(StoreAtRest::open(store_, StoreAtRest::IfMissing::Make));
+    const auto written = store->add_real_run(rows);
     ASSERT_TRUE(written) << to_string(written.error());
   }
   void change(const std::string& sql) {
@@ -73,19 +67,14 @@ class RealRuns : public WithStore {
     connection.execute(sql);
   }
   std::string file(const std::string& name) { return (folder_ / name).string(); }
-  std::string content(const std::string& name) {
-    std::ifstream stream(file(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  std::string content(const std::string& name) { return whole_file(file(name)); }
 };
 
 TEST_F(RealRuns, AreListedAndShown) {
-  const Ran listed = run({"ls", "runs", store_});
-  EXPECT_EQ(listed.code, 0) << listed.err;
+  const Ran listed = run_well({"ls", "runs", store_});
   EXPECT_THAT(listed.out, HasSubstr("r1"));
   EXPECT_THAT(listed.out, HasSubstr("run02"));
-  const Ran shown = run({"show", "r1", store_, "--json"});
-  EXPECT_EQ(shown.code, 0) << shown.err;
+  const Ran shown = run_well({"show", "r1", store_, "--json"});
   const json answer = json::parse(shown.out);
   EXPECT_EQ(answer["real run"]["id"], "r1");
   EXPECT_EQ(answer["real run"]["candidate"], "c1");
@@ -114,9 +103,8 @@ TEST_F(RealRuns, AreScoredAgainByVerify) {
 }
 
 TEST_F(RealRuns, AreReplayedBesideSimulationsFromTheSameStarts) {
-  const Ran replayed = run({"replay", "r1", store_, "--seeds", "1,5", "--svg", file("r.svg"),
-                            "--csv", file("r.csv"), "--json"});
-  ASSERT_EQ(replayed.code, 0) << replayed.err;
+  const Ran replayed = run_well({"replay", "r1", store_, "--seeds", "1,5", "--svg", file("r.svg"),
+                                 "--csv", file("r.csv"), "--json"});
   const json answer = json::parse(replayed.out);
   EXPECT_EQ(answer["same_bits"], true);
   EXPECT_EQ(answer["starts_as_real"], true);
@@ -137,12 +125,9 @@ TEST_F(RealRuns, AreReplayedBesideSimulationsFromTheSameStarts) {
 }
 
 TEST_F(RealRuns, AreReplayedAloneAndDrawnWithoutACandidate) {
-  const Ran alone = run({"replay", "r2", store_, "--svg", file("r.svg")});
-  EXPECT_EQ(alone.code, 0) << alone.err;
+  const Ran alone = run_well({"replay", "r2", store_, "--svg", file("r.svg")});
   EXPECT_THAT(alone.out, StartsWith("r2: same score as stored: "));
-  const Ran refused = run({"replay", "r2", store_, "--beside", "1"});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("names no candidate"));
+  EXPECT_THAT(refusal({"replay", "r2", store_, "--beside", "1"}), HasSubstr("names no candidate"));
 }
 
 TEST_F(RealRuns, SayWhatCannotBeMeant) {
@@ -159,8 +144,7 @@ TEST_F(RealRuns, SayWhatCannotBeMeant) {
 }
 
 TEST_F(RealRuns, AreAmongTheScoresOfTheirDesign) {
-  const Ran compared = run({"compare", store_, "--by", "source", "--json"});
-  EXPECT_EQ(compared.code, 0) << compared.err;
+  const Ran compared = run_well({"compare", store_, "--by", "source", "--json"});
   EXPECT_THAT(compared.out, HasSubstr("\"source\":\"real\""));
   EXPECT_EQ(run({"figure", "box", store_, "-o", file("box.svg")}).code, 0);
   EXPECT_THAT(content("box.svg"), HasSubstr("real"));

@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-
 #include <nlohmann/json.hpp>
 
 #include "cli/arguments/thing_id.h"
@@ -8,15 +6,14 @@
 #include "sim/files/profile_file.h"
 #include "sim/mission/trajectory_csv.h"
 #include "tests/cli/cli_support.h"
+#include "tests/support/checks.h"
 #include "tests/support/one_design.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith::cli {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 /// A machine whose robots turn up in several states.
 const std::string kTwoStatesText =
@@ -38,8 +35,7 @@ SimulationResult result_of(const std::string& machine_text, std::int64_t seed) {
 /// evaluation (e100006), a filmed one (e100001s), one without a pair (e100007), and one that was
 /// changed by hand (e100001a). `campaign` may be changed before it is written.
 void write_true_store(const std::filesystem::path& file, const CampaignRow& campaign) {
-  auto store = Store::open(file, campaign, design_rows(one_design_campaign()));
-  ASSERT_TRUE(store) << to_string(store.error());
+  auto store = value_of(Store::open(file, campaign, design_rows(one_design_campaign())));
   const DesignId design{1};
   const CandidateId candidate = candidate_id(design, 1);
   std::vector<Row> rows = {
@@ -75,8 +71,8 @@ void write_true_store(const std::filesystem::path& file, const CampaignRow& camp
   add(Purpose::Audit, 1, 99,
       {.measured = {.score = test.score, .state_digest = test.state_digest + 1}});
   add(Purpose::Score, 1, 3, {.measured = {.score = 2}, .source = "real"});
-  (*store)->append(std::move(rows));
-  (*store)->flush();
+  store->append(std::move(rows));
+  store->flush();
 }
 
 class Replay : public testing::Test {
@@ -89,8 +85,7 @@ class Replay : public testing::Test {
 
 TEST_F(Replay, FindsTheSameBits) {
   const SimulationResult wanted = result_of(kTwoStatesText, 22);
-  const Ran ran = run({"replay", "e100002", store_});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"replay", "e100002", store_});
   EXPECT_THAT(ran.out, StartsWith("e100002: same bits as stored: score "));
   const json found = json::parse(run({"replay", "e100002", store_, "--json"}).out);
   EXPECT_EQ(found["id"], "e100002");
@@ -139,8 +134,7 @@ TEST_F(Replay, TakesACandidateWithASeedAndComparesWhatIsStoredOfIt) {
   const json stored = json::parse(run({"replay", "c1", store_, "--seed", "23", "--json"}).out);
   EXPECT_EQ(stored["id"], "e100003");
   EXPECT_EQ(stored["same_bits"], true);
-  const Ran ran = run({"replay", "c1", store_, "--seed", "5"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Ran ran = run_well({"replay", "c1", store_, "--seed", "5"});
   EXPECT_THAT(ran.out, StartsWith("c1, seed 5: score "));
   EXPECT_THAT(ran.out, HasSubstr("no such evaluation to compare with"));
   const json fresh = json::parse(run({"replay", "c1", store_, "--seed", "5", "--json"}).out);
@@ -150,15 +144,12 @@ TEST_F(Replay, TakesACandidateWithASeedAndComparesWhatIsStoredOfIt) {
 }
 
 TEST_F(Replay, TellsWhatCannotBeCompared) {
-  const Ran rejected = run({"replay", "e100006", store_});
-  EXPECT_EQ(rejected.code, 0) << rejected.err;
+  const Ran rejected = run_well({"replay", "e100006", store_});
   EXPECT_THAT(rejected.out, HasSubstr("it was rejected"));
-  const Ran filmed = run({"replay", "e100001s", store_});
-  EXPECT_EQ(filmed.code, 2);
-  EXPECT_THAT(filmed.err, HasSubstr("e100001s: it was filmed, not simulated"));
-  const Ran lost = run({"replay", "e100007", store_});
-  EXPECT_EQ(lost.code, 2);
-  EXPECT_THAT(lost.err, HasSubstr("e100007: the store does not say on which seed"));
+  EXPECT_THAT(refusal({"replay", "e100001s", store_}),
+              HasSubstr("e100001s: it was filmed, not simulated"));
+  EXPECT_THAT(refusal({"replay", "e100007", store_}),
+              HasSubstr("e100007: the store does not say on which seed"));
 }
 
 TEST_F(Replay, OfASampleCountsTheDifferences) {
@@ -169,31 +160,26 @@ TEST_F(Replay, OfASampleCountsTheDifferences) {
   EXPECT_THAT(ran.err, HasSubstr("e100001a: the replay gives"));
   // Ordered by candidate, purpose and pair, the third, fifth and seventh: two of the race, the
   // test.
-  const Ran three = run({"replay", "--sample", "3", "--store", store_});
-  EXPECT_EQ(three.code, 0) << three.err;
+  const Ran three = run_well({"replay", "--sample", "3", "--store", store_});
   EXPECT_EQ(three.out, "3 evaluations replayed, 3 with the same bits as stored\n");
 }
 
 TEST_F(Replay, WritesATableThatGivesTheScoreAgain) {
   const std::string file = (folder_ / "run.csv").string();
   for (const std::int64_t seed : {21, 22, 99}) {
-    ASSERT_EQ(run({"replay", "c1", store_, "--seed", std::to_string(seed), "--csv", file}).code, 0);
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    const auto read = parse_trajectory_csv(text.str());
-    ASSERT_TRUE(read) << to_string(read.error());
+    run_well({"replay", "c1", store_, "--seed", std::to_string(seed), "--csv", file});
+    const auto read = value_of(parse_trajectory_csv(whole_file(file)));
     const Mission mission = one_design_campaign().missions.front().mission;
     const Instance instance = *instance_of(mission, seed);
-    EXPECT_EQ(read->starts, instance.starts);
-    EXPECT_EQ(read->trajectory.instants(), mission.cycles);
-    EXPECT_EQ(score_of(mission, instance, read->trajectory), result_of(kTwoStatesText, seed).score);
+    EXPECT_EQ(read.starts, instance.starts);
+    EXPECT_EQ(read.trajectory.instants(), mission.cycles);
+    EXPECT_EQ(score_of(mission, instance, read.trajectory), result_of(kTwoStatesText, seed).score);
   }
 }
 
 TEST_F(Replay, WritesCommandsStatesAndReadingsToStandardOutput) {
-  const Ran ran = run({"replay", "e100001", store_, "--csv", "-", "--readings", "ground_color"});
-  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Ran ran =
+      run_well({"replay", "e100001", store_, "--csv", "-", "--readings", "ground_color"});
   EXPECT_THAT(ran.out, StartsWith("cycle,time_s,robot,x,y,theta,cmd_left,cmd_right,state,behaviour,"
                                   "leds,ground_r,ground_g,ground_b\n0,0,0,"));
   EXPECT_THAT(
@@ -208,8 +194,8 @@ TEST_F(Replay, WritesCommandsStatesAndReadingsToStandardOutput) {
 TEST_F(Replay, IsNotChangedByWritingItDown) {
   const std::string file = (folder_ / "run.csv").string();
   for (const char* id : {"e100001", "e100004"}) {
-    const Ran ran = run({"replay", id, store_, "--csv", file, "--readings", "all,lidar", "--json"});
-    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Ran ran =
+        run_well({"replay", id, store_, "--csv", file, "--readings", "all,lidar", "--json"});
     EXPECT_EQ(json::parse(ran.out)["same_bits"], true);
   }
 }

@@ -1,15 +1,11 @@
 #include "cli/output/status_text.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <numeric>
+
+#include "tests/support/checks.h"
 
 namespace swarmsmith::cli {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// A thousand workers on fifty hosts, one of them bad, at thirty designs.
 LiveStatus cluster() {
@@ -120,7 +116,7 @@ TEST(StatusText, TellsNoMeanOfAnImportedMachine) {
   const std::vector<std::string> lines = status_lines(status, {200, 100});
   const auto line = std::ranges::find_if(lines, [](auto& each) { return each.starts_with("d1 "); });
   ASSERT_NE(line, lines.end());
-  EXPECT_THAT(line->substr(line->find("it ") + 6, 8), testing::Not(HasSubstr("0")));
+  EXPECT_THAT(line->substr(line->find("it ") + 6, 8), Not(HasSubstr("0")));
 }
 
 TEST(StatusText, SaysWhereTheTimeGoesAndWhenItEnds) {

@@ -1,18 +1,14 @@
 #include "console/complete.h"
 
-#include <gmock/gmock.h>
-
 #include <CLI/CLI.hpp>
 #include <sstream>
 #include <stdexcept>
 
 #include "console/options.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 /// A command with an option of each kind.
 class Complete : public testing::Test {

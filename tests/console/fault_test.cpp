@@ -1,7 +1,5 @@
 #include "console/fault.h"
 
-#include <gmock/gmock.h>
-
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,12 +13,10 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/support/checks.h"
+
 namespace swarmsmith {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 /// What is said of the exception that `act` throws.
 template <class Act>

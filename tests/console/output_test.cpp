@@ -5,8 +5,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -58,8 +56,7 @@ TEST(Output, OfBothStreamsInOneFileIsWholeLinesInTheirOrder) {
       expected += "line " + std::to_string(i) + " of one log\n";
     }
   }
-  std::ifstream file(folder / "log");
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), expected);
+  EXPECT_EQ(whole_file(folder / "log"), expected);
 }
 
 }  // namespace

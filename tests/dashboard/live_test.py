@@ -13,7 +13,7 @@ import unittest
 import looks
 from dashboards import DashboardTest, add_real_run, finished_store, needs_browser, query, shared_browser, shared_folder
 from pages_test import pages_of
-from programs import call, campaign_text
+from programs import call, campaign_text, ended_well
 
 #: Experiments used, as the page of all campaigns says it.
 USED = r"parseInt(document.querySelector('main').innerText.match(/experiments\s+([\d\u2009]+)/)[1].replace(/\u2009/g, ''))"
@@ -216,8 +216,7 @@ class Live(DashboardTest):
     def test_an_exported_file_opens_from_disk_and_asks_nobody(self):
         store = finished_store()
         file = self.folder / "export.html"
-        done = call("dashboard", store, "--export", file)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("dashboard", store, "--export", file))
         self.assertLess(file.stat().st_size, 500_000)
         used = query(store, "SELECT sum(used) AS used FROM v_designs")[0]["used"]
         address = file.as_uri()

@@ -10,7 +10,7 @@ import subprocess
 import unittest
 
 import programs
-from programs import SWARMSMITH, ProgramTest, call, campaign_text, wait_for
+from programs import SWARMSMITH, ProgramTest, call, campaign_text, ended_well, wait_for
 
 LEAST = 1350  # what the whole space needs
 EXPLORE = ["--nstates", "1", "--s0", "0", "--rwm0", "10"]
@@ -28,8 +28,7 @@ class BadInput(ProgramTest):
             file = self.folder / "first.toml"
             file.write_text(campaign_text(LEAST, seed=7, tests=3))
             first = self.folder / "first.db"
-            done = call("run", file, "--store", first)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(call("run", file, "--store", first))
             BadInput.finished = first.read_bytes()
         path = self.folder / name
         path.write_bytes(BadInput.finished)
@@ -160,8 +159,7 @@ class CampaignFile(BadInput):
     def test_a_flag_wins_over_a_budget_that_is_too_small(self):
         self.changed(budget=10)
         store = self.folder / "flag.db"
-        done = self.run_campaign(store, "--budget", LEAST)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(store, "--budget", LEAST))
         self.assertEqual(self.digest(store), self.digest(self.store_of_file(LEAST)))
         self.assert_refused(2, "--budget: method", "run", "campaign.toml", "--budget", 11)
 
@@ -176,8 +174,7 @@ class CampaignFile(BadInput):
         plan = json.loads(call("check", self.file, "--json").stdout)
         self.assertEqual(plan["experiments"], 1500)
         store = self.folder / "min.db"
-        done = self.run_campaign(store, "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(self.run_campaign(store, "--json"))
         events = [json.loads(line) for line in done.stdout.splitlines()]
         self.assertEqual({e["budget"] for e in events if e["event"] == "progress"}, {1500})
         self.assertEqual(events[-1]["event"], "done")
@@ -350,8 +347,7 @@ class BadStore(BadInput):
     def test_a_finished_store_gives_its_result_again(self):
         store = self.store()
         before = self.digest(store)
-        done = self.run_campaign(store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(self.run_campaign(store))
         self.assertIn("finished after", done.stdout)
         self.assertEqual(self.digest(store), before)
 
@@ -464,8 +460,7 @@ class BadPeers(BadInput):
             done = self.local_worker(code)
             self.assertEqual(done.returncode, 5, done.stderr)
             self.assertIn(sentence, done.stderr)
-        done = self.run_campaign(self.folder / "x.db")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(self.folder / "x.db"))
         self.assertEqual(self.digest(self.folder / "x.db"), self.digest(self.store()))
 
     def test_addresses_that_are_none(self):
@@ -534,8 +529,7 @@ class Endings(BadInput):
             process.stderr.close()
             self.assertIn(process.wait(timeout=DEADLINE_S), (0, 1, -signal.SIGPIPE))
             self.assertNotRegex(trace, "terminate|Assert|internal error|core")
-        done = self.run_campaign(self.folder / "r.db")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(self.folder / "r.db"))
         self.assertEqual(self.digest(self.folder / "r.db"), self.digest(store))
 
     def test_an_answer_that_cannot_be_written_is_no_success(self):

@@ -4,7 +4,7 @@ import os
 import subprocess
 import unittest
 
-from programs import SWARMSMITH, ProgramTest, call, campaign_text
+from programs import SWARMSMITH, ProgramTest, call, campaign_text, ended_well
 
 EXPLORE = ["--nstates", "1", "--s0", "0", "--rwm0", "10"]
 
@@ -47,20 +47,17 @@ class CommandLine(ProgramTest):
             self.assert_exits(3, "no.db: there is no such store", command, "no.db")
 
     def test_check_answers_on_standard_output(self):
-        done = call("check", self.file, "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("check", self.file, "--json"))
         self.assertEqual(json.loads(done.stdout)["experiments"], 2000)
 
     def test_a_campaign_of_chocolate_checks_and_runs(self):
         text = campaign_text(2000, seed=1, tests=2)
         self.file.write_text(text.replace("watermelon-argos3", "chocolate").replace(
             "max_experiments", "nb_iterations = 2\nmax_experiments"))
-        check = call("check", self.file, "--json")
-        self.assertEqual(check.returncode, 0, check.stderr)
+        check = ended_well(call("check", self.file, "--json"))
         self.assertIn("has no light", json.loads(check.stdout)["warnings"][0])
         store = self.folder / "chocolate.db"
-        done = self.run_campaign(store)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        ended_well(self.run_campaign(store))
         self.assert_clean(store)
         tried = self.query(store, "SELECT count(*) AS n FROM v_candidates "
                                   "WHERE modules LIKE '%phototaxis%'")
@@ -79,8 +76,8 @@ class CommandLine(ProgramTest):
         self.assertIn("--slots: applies to workers on this host", done.stderr)
 
     def test_evaluate_takes_the_words_of_a_machine_as_they_are(self):
-        done = call("evaluate", *EXPLORE, "--flavour", "watermelon", "--mission", "aggregation", "--seeds", "1-3", "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("evaluate", *EXPLORE, "--flavour", "watermelon", "--mission", "aggregation", "--seeds", "1-3",
+                               "--json"))
         runs = [json.loads(line) for line in done.stdout.splitlines()]
         self.assertEqual([run["seed"] for run in runs], [1, 2, 3])
         again = call("evaluate", "--flavour", "watermelon", "--mission", "aggregation", "--seeds", "1-3", "--json", "--",

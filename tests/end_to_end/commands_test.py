@@ -2,7 +2,7 @@
 import signal
 import unittest
 
-from programs import ProgramTest, call, children_of, designs_of, send, used, wait_for
+from programs import ProgramTest, call, children_of, designs_of, ended_well, send, used, wait_for
 
 
 class Commands(ProgramTest):
@@ -20,8 +20,7 @@ class Commands(ProgramTest):
         """Digest of the campaign without any command, computed once."""
         if "plain" not in Commands.references:
             store = self.folder / "reference.db"
-            done = self.run_campaign(store, "--workers", "2")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(self.run_campaign(store, "--workers", "2"))
             Commands.references["plain"] = self.digest(store)
         return Commands.references["plain"]
 
@@ -68,8 +67,7 @@ class Commands(ProgramTest):
         self.assertEqual(process.wait(timeout=60), 130)
 
     def go_on(self):
-        done = self.run_campaign(self.store, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(self.store, "--workers", "2"))
         self.assert_clean(self.store)
 
     def test_a_paused_design_stands_still_and_goes_on_to_the_same_answer(self):
@@ -124,8 +122,7 @@ class Commands(ProgramTest):
         send(process.pid, signal.SIGKILL)
         process.wait()
         self.go_on()
-        done = self.run_campaign(twin, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(twin, "--workers", "2"))
         self.assertEqual(self.digest(self.store), self.digest(twin))
         designs = self.designs()
         self.assertEqual((designs[2]["state"], designs[2]["reason"]), ("stopped", "cancelled"))
@@ -169,11 +166,9 @@ class Commands(ProgramTest):
         self.go_on()
         self.assertGreater(self.used(1), self.budget)
         at_rest = self.folder / "rest.db"
-        done = self.run_campaign(at_rest, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(at_rest, "--workers", "2"))
         self.ask("extend", at_rest, "d1", "--budget", "900")
-        done = self.run_campaign(at_rest, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(at_rest, "--workers", "2"))
         # An extension acts at the end of the race, whenever it was asked for.
         self.assertEqual(self.digest(self.store), self.digest(at_rest))
 

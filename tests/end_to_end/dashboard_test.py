@@ -14,7 +14,7 @@ import threading
 import time
 import unittest
 
-from programs import SWARMSMITH, ProgramTest, call, wait_for
+from programs import SWARMSMITH, ProgramTest, call, ended_well, wait_for
 
 
 class Dashboard(ProgramTest):
@@ -163,8 +163,7 @@ class Dashboard(ProgramTest):
     def test_at_rest(self):
         store = self.folder / "rest.db"
         self.store = store
-        done = call("run", self.file, "--store", store, "--workers", "2", "--no-dashboard", "--budget", "1500", "-q")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("run", self.file, "--store", store, "--workers", "2", "--no-dashboard", "--budget", "1500", "-q"))
         process = self.begin("dashboard", store, "--http", "127.0.0.1:*")
         live = self.live()
         self.assertFalse(live["running"])
@@ -193,8 +192,7 @@ class Dashboard(ProgramTest):
     def test_nobody_acts_on_an_imported_campaign(self):
         self.store = self.folder / "imported.db"
         log = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden/argos/argos-fsms.csv"
-        done = call("import", log, "--flavour", "watermelon-argos3", "--mission", "aggregation", "--into", self.store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("import", log, "--flavour", "watermelon-argos3", "--mission", "aggregation", "--into", self.store))
         self.begin("dashboard", self.store, "--http", "127.0.0.1:*")
         live = self.live()
         self.assertTrue(live["may_act"], "who serves the pages may act")
@@ -223,8 +221,7 @@ class Dashboard(ProgramTest):
         kept = self.folder / "kept.txt"
         kept.write_text("precious")
         store = self.folder / "small.db"
-        done = call("import", pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden/irace/log-acotsp", "--into", store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("import", pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden/irace/log-acotsp", "--into", store))
         for file in (kept, self.folder, self.folder / "nowhere" / "page.html", store):
             done = call("dashboard", store, "--export", file)
             self.assertEqual(done.returncode, 1, done.stderr)
@@ -233,8 +230,7 @@ class Dashboard(ProgramTest):
 
     def test_a_score_that_no_axis_can_hold_is_damage_and_is_said_at_once(self):
         store = self.folder / "forged.db"
-        done = call("import", pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden/irace/log-acotsp", "--into", store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("import", pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden/irace/log-acotsp", "--into", store))
         with sqlite3.connect(store) as connection:
             connection.execute("UPDATE evaluation SET score = 9e999")
         self.begin("dashboard", store, "--http", "127.0.0.1:*")
@@ -247,8 +243,7 @@ class Dashboard(ProgramTest):
 
     def test_a_file_to_send(self):
         store = self.folder / "sent.db"
-        done = call("run", self.file, "--store", store, "--workers", "2", "--no-dashboard", "--budget", "1500", "-q")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("run", self.file, "--store", store, "--workers", "2", "--no-dashboard", "--budget", "1500", "-q"))
         page = self.folder / "sent.html"
         done = call("dashboard", store, "--export", page, "--json")
         if "built without its pages" in done.stderr:

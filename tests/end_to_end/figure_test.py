@@ -10,7 +10,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as xml
 
-from programs import SWARMSMITH, call, campaign_text
+from programs import SWARMSMITH, call, campaign_text, ended_well
 
 SVG = "{http://www.w3.org/2000/svg}"
 #: Kinds with the options that they need, and the least number of rows in their tables.
@@ -31,8 +31,7 @@ class Figure(unittest.TestCase):
         assert done.returncode == 0, done.stderr
 
     def figure(self, kind, *options):
-        done = call("figure", kind, self.store, *options)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("figure", kind, self.store, *options))
         return done.stdout
 
     def refused(self, code, *words):
@@ -76,8 +75,7 @@ class Figure(unittest.TestCase):
     def test_runs_are_those_of_the_seeds(self):
         table, replayed = self.folder / "figure.csv", self.folder / "replay.csv"
         self.figure("trajectories", "--candidate", "c1", "--seed", "7", "--seed", "8", "-o", table)
-        done = call("replay", "c1", self.store, "--seed", "8", "--csv", replayed)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("replay", "c1", self.store, "--seed", "8", "--csv", replayed))
         with open(table, newline="") as one, open(replayed, newline="") as other:
             rows = [row for row in csv.DictReader(one) if row["seed"] == "8"]
             expected = list(csv.DictReader(other))
@@ -163,8 +161,7 @@ class Figure(unittest.TestCase):
                                "GROUP BY source", own, "--json").stdout)["rows"]
         views = {row["source"]: row for row in rows}
         table = self.folder / "gap.csv"
-        done = call("figure", "gap", own, "-o", table)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("figure", "gap", own, "-o", table))
         with open(table, newline="") as stream:
             drawn = {row["source"]: row for row in csv.DictReader(stream)}
         self.assertEqual(set(drawn), {"argos3", "pseudo-reality"})

@@ -14,7 +14,7 @@ import subprocess
 import unittest
 
 from every_command import ARGUMENTS, commands, invocations
-from programs import SWARMSMITH, ProgramTest, call, campaign_text
+from programs import SWARMSMITH, ProgramTest, call, campaign_text, ended_well
 
 LEAST = 1350  # what the whole space needs
 
@@ -107,8 +107,7 @@ class HostileTexts(ProgramTest):
     def finished_store(self, name):
         if HostileTexts.finished is None:
             first = self.folder / "first.db"
-            done = call("run", self.file, "--store", first, "--no-dashboard", "--workers", "2")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(call("run", self.file, "--store", first, "--no-dashboard", "--workers", "2"))
             HostileTexts.finished = first.read_bytes()
         path = self.folder / name
         path.write_bytes(HostileTexts.finished)
@@ -206,12 +205,10 @@ class HostileTexts(ProgramTest):
                       ["query", store, "SELECT * FROM v_design_scores", "--csv"],
                       ["query", store, "SELECT '=1', '-2+3', '@x', char(9) || '=1'", "--csv"],
                       ["compare", "--by", "mission", store, "--csv"]):
-            done = run(*words)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = ended_well(run(*words))
             self.assertEqual(self.formulas_in(done.stdout), [])
             guarded += done.stdout.count(b"'=")
-        done = run("supplement", store, "-o", self.folder / "supplement")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(run("supplement", store, "-o", self.folder / "supplement"))
         tables = list((self.folder / "supplement").rglob("*.csv"))
         self.assertGreater(len(tables), 10)
         for table in tables:
@@ -221,8 +218,7 @@ class HostileTexts(ProgramTest):
         # What was written is read again as what it was.
         scores = self.folder / "scores.csv"
         scores.write_bytes(run("query", store, "SELECT * FROM v_design_scores", "--csv").stdout)
-        done = run("import", scores, "--into", store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(run("import", scores, "--into", store))
 
 
 if __name__ == "__main__":

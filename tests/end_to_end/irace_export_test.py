@@ -5,7 +5,7 @@ import re
 import subprocess
 import unittest
 
-from programs import ProgramTest, call
+from programs import ProgramTest, call, ended_well
 
 
 def read_parameters(text):
@@ -51,8 +51,7 @@ class IraceExport(ProgramTest):
     def scores_are_those_of(self, variables, text_of=" ".join):
         """What the target-runner says of random words beside what `evaluate` says of their text."""
         folder = self.folder / "irace"
-        done = call("export", self.file, "--format", "irace", "-o", folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("export", self.file, "--format", "irace", "-o", folder))
         parameters = read_parameters((folder / "parameters.txt").read_text())
         self.assertEqual(len(parameters), variables)
         rng = random.Random(11)
@@ -60,9 +59,8 @@ class IraceExport(ProgramTest):
         for number in range(20):
             words = random_words(parameters, rng)
             seed = rng.randint(1, 2**31 - 1)
-            run = subprocess.run([folder / "target-runner", str(number), "1", str(seed), "aggregation", *words],
-                                 capture_output=True, text=True, timeout=60, cwd="/")
-            self.assertEqual(run.returncode, 0, run.stderr)
+            run = ended_well(subprocess.run([folder / "target-runner", str(number), "1", str(seed), "aggregation", *words],
+                                            capture_output=True, text=True, timeout=60, cwd="/"))
             file = self.folder / "software.txt"
             file.write_text(text_of(words))
             ours = call("evaluate", file, "--flavour", "watermelon-argos3", "--profile", "argos3",

@@ -13,7 +13,7 @@ import tempfile
 import time
 import unittest
 
-from programs import SWARMSMITH, call, send, start, wait_for
+from programs import SWARMSMITH, call, ended_well, send, start, wait_for
 
 PARAMETERS = """\
 # name  switch   type  domain    condition
@@ -91,17 +91,14 @@ class Irace(unittest.TestCase):
         return file.read_text().splitlines() if file.exists() else []
 
     def digest(self, store="irace.db"):
-        done = call("digest", self.folder / store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("digest", self.folder / store))
         return done.stdout.strip()
 
     def assert_clean(self, store="irace.db"):
-        done = call("verify", self.folder / store)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        ended_well(call("verify", self.folder / store))
 
     def query(self, sql, store="irace.db"):
-        done = call("query", self.folder / store, sql, "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("query", self.folder / store, sql, "--json"))
         return json.loads(done.stdout)["rows"]
 
     def best_lines(self, output):
@@ -217,12 +214,10 @@ class Usual(Irace):
         self.irace()
         rows = self.query("SELECT count(*) AS n FROM v_evaluations")
         self.assertEqual(rows[0]["n"], len(self.calls()))
-        shown = call("show", "c1", self.folder / "irace.db")
-        self.assertEqual(shown.returncode, 0, shown.stderr)
+        shown = ended_well(call("show", "c1", self.folder / "irace.db"))
         self.assertIn("--x", shown.stdout)
         for words in (("ls", "elites"), ("ls", "candidates"), ("show", "d1"), ("status",)):
-            done = call(*words, self.folder / "irace.db")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(call(*words, self.folder / "irace.db"))
 
     def test_what_is_wrong_is_said_and_exits_with_1(self):
         unknown = self.irace("--max-experiment", "100", code=1)
@@ -412,8 +407,7 @@ class Parts(Irace):
     def test_init_writes_what_runs(self):
         folder = self.folder / "new"
         folder.mkdir()
-        done = call("irace", "--init", cwd=folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("irace", "--init", cwd=folder))
         written = {file: (folder / file).read_text() for file in os.listdir(folder)
                    if (folder / file).is_file()}
         self.assertIn("scenario.txt", written)
@@ -421,8 +415,7 @@ class Parts(Irace):
         self.assertIn("scenario.txt", again.stdout + again.stderr)
         for file, text in written.items():
             self.assertEqual((folder / file).read_text(), text)
-        done = call("irace", "--check", cwd=folder)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        ended_well(call("irace", "--check", cwd=folder))
         done = call("irace", "--max-experiments", "200", "--seed", "1", cwd=folder)
         self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr)
         self.assertGreaterEqual(len(self.best_lines(done.stdout)), 1)
@@ -656,10 +649,8 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         self.assertEqual(len(rows) - 1, len(self.calls()) - made)
         pairs = {tuple(row[-3:-1]) for row in rows[1:]}
         self.assertEqual(len(pairs), 5, "firstTest pairs, the same for all")
-        drawn = call("figure", "ablation", "irace-ablation.db", "-o", "ablation.svg", cwd=self.folder)
-        self.assertEqual(drawn.returncode, 0, drawn.stderr)
-        drawn = call("figure", "ablation", "irace-ablation.db", "-o", "way.csv", cwd=self.folder)
-        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        ended_well(call("figure", "ablation", "irace-ablation.db", "-o", "ablation.svg", cwd=self.folder))
+        ended_well(call("figure", "ablation", "irace-ablation.db", "-o", "way.csv", cwd=self.folder))
         way = [(row["step"], row["change"], row["pair"], float(row["cost"]))
                for row in csv.DictReader(io.StringIO((self.folder / "way.csv").read_text()))]
         self.assertEqual(way, [(step, changed, pair, float(cost))

@@ -6,7 +6,7 @@ import shutil
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from programs import ProgramTest, call
+from programs import ProgramTest, call, ended_well
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -18,12 +18,10 @@ class MachineExport(ProgramTest):
     def setUp(self):
         super().setUp()
         self.store = self.folder / "a.db"
-        done = self.run_campaign(self.store, "--workers", "1", "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(self.store, "--workers", "1", "--quiet"))
 
     def export(self, form, *more):
-        done = call("export", self.store, "--format", form, *more)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("export", self.store, "--format", form, *more))
         return done.stdout
 
     def machine(self):
@@ -97,9 +95,8 @@ class MachineExport(ProgramTest):
         best = self.query(self.store, "SELECT best_candidate FROM v_designs")[0]["best_candidate"]
         world = ("--seeds", "1-3", "--json")
         stored = call("evaluate", f"c{best}", "--store", self.store, "--no-store", *world)
-        again = call("evaluate", *text.split(), "--flavour", "watermelon-argos3", "--profile",
-                     "argos3", "--mission", "aggregation", *world)
-        self.assertEqual(again.returncode, 0, again.stderr)
+        again = ended_well(call("evaluate", *text.split(), "--flavour", "watermelon-argos3", "--profile",
+                                "argos3", "--mission", "aggregation", *world))
         scores = [[json.loads(line)["score"] for line in done.stdout.splitlines()]
                   for done in (stored, again)]
         self.assertEqual(len(scores[0]), 3)
@@ -141,8 +138,7 @@ max_experiments = 1400
 """)
         self.store = self.folder / "a.db"
         if WholeCampaign.made is None:
-            done = self.run_campaign(self.store, "--workers", "2", "--quiet")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(self.run_campaign(self.store, "--workers", "2", "--quiet"))
             WholeCampaign.made = self.store.read_bytes()
         else:
             self.store.write_bytes(WholeCampaign.made)
@@ -152,8 +148,7 @@ max_experiments = 1400
             self.store, f"SELECT seed, score FROM v_design_scores WHERE design = {design}")}
 
     def scores(self, *words):
-        done = call("evaluate", *words, "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("evaluate", *words, "--json"))
         return {run["seed"]: run["score"] for run in map(json.loads, done.stdout.splitlines())}
 
     def test_each_winner_of_a_file_scores_as_stored_without_a_flag(self):
@@ -171,8 +166,7 @@ max_experiments = 1400
     def test_tables_of_starts_and_patches_are_what_was_scored(self):
         for what, columns in (("starts", "seed,robot,x,y,theta"), ("patches", "seed,x,y,color")):
             table = self.folder / f"{what}.csv"
-            done = call("export", self.store, "--what", what, "--mission", "color_selection", "-o", table)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(call("export", self.store, "--what", what, "--mission", "color_selection", "-o", table))
             self.assertEqual(table.read_text().splitlines()[0], columns)
         machine = self.folder / "machine.fsm"
         design = self.query(self.store, "SELECT design FROM v_designs WHERE mission = 'color_selection' "
@@ -206,15 +200,13 @@ max_experiments = 1400
     def test_words_stand_in_one_order_and_the_old_one_is_understood(self):
         sql = "SELECT count(*) AS n FROM v_designs"
         self.assertEqual(call("query", sql, self.store).stdout, call("query", self.store, sql).stdout)
-        done = call("evaluate", "best", self.store, "--design", "d1", "--seeds", "1", "--no-store")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("evaluate", "best", self.store, "--design", "d1", "--seeds", "1", "--no-store"))
         done = call("evaluate", "--nstates 1 --s0 1", self.store, "--flavour", "watermelon", "--mission", "aggregation")
         self.assertEqual(done.returncode, 2)
         self.assertIn("one word too many", done.stderr)
 
     def test_numbers_of_latex_are_mathematics(self):
-        done = call("compare", self.store, "--by", "method", "--paper", "latex")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("compare", self.store, "--by", "method", "--paper", "latex"))
         self.assertIn("difference of the means $", done.stdout)
         self.assertNotRegex(re.sub(r"\$[^$]*\$", "", done.stdout), r"-[0-9]")
 

@@ -7,7 +7,7 @@ import random
 import signal
 import unittest
 
-from programs import ProgramTest, call, campaign_text, children_of, send, used, wait_for
+from programs import ProgramTest, call, campaign_text, children_of, ended_well, send, used, wait_for
 
 METHODS = {
     "random": "",
@@ -32,8 +32,7 @@ class MethodTest(ProgramTest):
                                            methods=[f'name = "{name}"\n{keys}'], profile=None))
 
     def answer(self, store, *arguments):
-        done = self.run_campaign(store, *arguments)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        ended_well(self.run_campaign(store, *arguments))
         self.assert_clean(store)
         return self.digest(store)
 
@@ -95,8 +94,7 @@ class Extended(MethodTest):
                 for workers in ("1", "3"):
                     store = self.folder / f"{preset}.{workers}.db"
                     self.answer(store, "--workers", workers)
-                    done = call("extend", store, "d1", "--budget", "1400")
-                    self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                    ended_well(call("extend", store, "d1", "--budget", "1400"))
                     digests.append(self.answer(store, "--workers", workers))
                     used = self.query(store, "SELECT used FROM v_designs")[0]["used"]
                     self.assertGreater(used, self.budget)

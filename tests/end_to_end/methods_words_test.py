@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from programs import ProgramTest, call
+from programs import ProgramTest, call, ended_well
 
 HEAD = """\
 format = 1
@@ -46,15 +46,13 @@ class Words(ProgramTest):
             file = self.folder / "words.toml"
             file.write_text(HEAD.format(
                 budget=600, methods="".join(method(*one) for one in METHODS.items())))
-            done = call("run", file, "--store", path, "-v")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = ended_well(call("run", file, "--store", path, "-v"))
             Words.finished = path.read_bytes(), done.stdout, done.stderr
         path.write_bytes(Words.finished[0])
         return path
 
     def answer(self, *arguments):
-        done = call(*arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call(*arguments))
         return done.stdout
 
     def refused(self, sentence, *arguments):
@@ -126,8 +124,7 @@ class Words(ProgramTest):
         store = self.store()
         self.refused("the control software is a network, and .argos files of RVRs are of state machines "
                      "alone", "export", store, "--design", "d3", "--format", "argos")
-        done = call("export", store, "--format", "argos", "-o", self.folder / "experiments")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("export", store, "--format", "argos", "-o", self.folder / "experiments"))
         self.assertIn("2 of 5 are left out: .argos files are of state machines, and of trees for e-pucks", done.stderr)
         written = sorted(path.name[:2] for path in (self.folder / "experiments").iterdir())
         self.assertEqual(written, ["d1", "d2", "d5"])
@@ -187,8 +184,7 @@ class Words(ProgramTest):
             self.assertEqual(self.check(method(name, table), budget=least - 1).returncode, 2, name)
             file = self.folder / "checked.toml"
             file.write_text(HEAD.format(methods=method(name, table), budget=least))
-            done = call("run", file, "--store", self.folder / f"{name}.db")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(call("run", file, "--store", self.folder / f"{name}.db"))
 
 
 if __name__ == "__main__":

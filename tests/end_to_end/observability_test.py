@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from programs import SWARMSMITH, ProgramTest, call, send, wait_for
+from programs import SWARMSMITH, ProgramTest, call, ended_well, send, wait_for
 
 
 class Observability(ProgramTest):
@@ -171,8 +171,7 @@ class Observability(ProgramTest):
     def test_status_asks_the_coordinator_that_the_store_names(self):
         process = self.serve()
         self.until_all_work()
-        done = call("status", self.store, "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("status", self.store, "--json"))
         live = json.loads(done.stdout)
         self.assertEqual(live["workers"], 2)
         self.assertGreater(live["done"], 100)
@@ -213,8 +212,7 @@ class Observability(ProgramTest):
         self.assertEqual((launcher["name"], launcher["wanted"]), ("local", 2))
         self.assertIn("launcher local: 2 of 2 workers run", call("status", store).stdout)
         self.assertFalse(status["campaigns"][0]["designs"][0]["paused"])
-        paused = call("pause", store)
-        self.assertEqual(paused.returncode, 0, paused.stderr)
+        paused = ended_well(call("pause", store))
         before = once(lambda s: s["campaigns"][0]["designs"][0]["paused"] and s["leased"] == 0)
         held = before["slot_times"]["idle_s"]["held"]
         after = once(lambda s: s["slot_times"]["idle_s"]["held"] > held + 1)

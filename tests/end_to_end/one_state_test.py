@@ -9,7 +9,7 @@ import subprocess
 import threading
 import unittest
 
-from programs import PATIENCE, SWARMSMITH, ProgramTest, call, wait_for
+from programs import PATIENCE, SWARMSMITH, ProgramTest, call, ended_well, wait_for
 
 TWO_DESIGNS = "repetitions = 2\n"
 NUMBERS = ("designs", "designs_finished", "used", "budget", "left")
@@ -148,8 +148,7 @@ class OneState(ProgramTest):
         first = self.at_rest()
         self.assertEqual((first["state"], first["left"], first["designs_finished"], first["budget"]), ("finished", 0, 2, 3000))
         self.assertLessEqual(first["used"], 3000)
-        done = call("extend", self.store, "d1", "--budget", "400")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("extend", self.store, "d1", "--budget", "400"))
         self.at_rest(with_run=False)
         self.ended(self.run_it())
         again = self.at_rest()

@@ -6,7 +6,7 @@ import pathlib
 import shutil
 import unittest
 
-from programs import ProgramTest, call, campaign_text
+from programs import ProgramTest, call, campaign_text, ended_well
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 MISSION = """\
@@ -43,8 +43,7 @@ class OwnRobot(ProgramTest):
 
     def test_it_runs_and_is_drawn(self):
         picture = self.folder / "run.svg"
-        done = self.evaluate("--seeds", "1", "--svg", picture)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.evaluate("--seeds", "1", "--svg", picture))
         self.assertIn("</svg>", picture.read_text())
         rows = self.evaluate("--seeds", "1", "--csv", "-").stdout.splitlines()
         self.assertEqual(rows[0].split(",")[:5], ["cycle", "time_s", "robot", "x", "y"])
@@ -58,18 +57,14 @@ class OwnRobot(ProgramTest):
         self.file.write_text(campaign_text(1350, tests=3, missions=("turtles.toml",), profile="rvr",
                                            methods=('name = "chocolate"',)).replace('name = "turtles.toml"', 'preset = "turtles.toml"'))
         store = self.folder / "turtles.db"
-        done = call("run", self.file, "--store", store, "--no-dashboard", "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("run", self.file, "--store", store, "--no-dashboard", "--workers", "2"))
         for file in ("turtlebot4.toml", "turtles.toml"):
             (self.folder / file).unlink()
-        best = call("evaluate", "best", store, "--seeds", "1-2", "--json")
-        self.assertEqual(best.returncode, 0, best.stderr)
+        best = ended_well(call("evaluate", "best", store, "--seeds", "1-2", "--json"))
         self.assertEqual(len(best.stdout.splitlines()), 2, best.stdout)
         evaluation = json.loads(best.stdout.splitlines()[0])["id"]
-        replay = call("replay", evaluation, store, "--json")
-        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
-        machines = call("export", store, "-o", self.folder / "machines")
-        self.assertEqual(machines.returncode, 0, machines.stderr)
+        ended_well(call("replay", evaluation, store, "--json"))
+        ended_well(call("export", store, "-o", self.folder / "machines"))
 
     def test_what_does_not_fit_is_refused_in_a_sentence(self):
         robot = self.folder / "turtlebot4.toml"

@@ -3,7 +3,7 @@ import json
 import signal
 import unittest
 
-from programs import ProgramTest, call, campaign_text, send, start
+from programs import ProgramTest, call, campaign_text, ended_well, send, start
 
 
 class Pool(ProgramTest):
@@ -24,8 +24,7 @@ class Pool(ProgramTest):
 
     def alone(self, file):
         store = self.folder / (file.stem + "-alone.db")
-        done = call("run", file, "--store", store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("run", file, "--store", store))
         return self.digest(store)
 
     def assert_as_alone(self):
@@ -35,8 +34,7 @@ class Pool(ProgramTest):
             self.assertEqual(self.digest(store), self.alone(file))
 
     def test_two_campaigns_give_what_each_gives_alone(self):
-        done = call("run", *self.files, "--workers", "2", "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("run", *self.files, "--workers", "2", "--json"))
         events = [json.loads(line) for line in done.stdout.splitlines()]
         of_designs = [event for event in events if event["event"] in ("design", "race_step")]
         self.assertEqual({event["campaign"] for event in of_designs}, {"first", "second"})
@@ -58,14 +56,12 @@ class Pool(ProgramTest):
             except Exception:
                 send(process.pid, signal.SIGKILL)
                 process.wait()
-        done = call("run", *self.files, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("run", *self.files, "--workers", "2"))
         self.assert_as_alone()
 
     def test_a_finished_one_prints_its_result_and_stops_nobody(self):
         self.assertEqual(call("run", self.files[0]).returncode, 0)
-        done = call("run", *self.files)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("run", *self.files))
         self.assertIn("campaign first\nd1", done.stdout)
         self.assertIn("campaign second\nd1", done.stdout)
 

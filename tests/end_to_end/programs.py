@@ -73,6 +73,12 @@ def call(*arguments, timeout=300, cwd=None):
                           errors="replace", timeout=timeout * PATIENCE, cwd=cwd)
 
 
+def ended_well(done):
+    """The finished process, which has to have exit code 0."""
+    assert done.returncode == 0, f"{done.args}: exit code {done.returncode}\n{done.stdout}{done.stderr}"
+    return done
+
+
 def start(*arguments, cwd=None):
     """Starts swarmsmith in a process group of its own, output thrown away."""
     return subprocess.Popen([SWARMSMITH, *map(str, arguments)], stdout=subprocess.DEVNULL,
@@ -147,15 +153,12 @@ class ProgramTest(unittest.TestCase):
         process.wait()
 
     def digest(self, store):
-        done = call("digest", store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("digest", store))
         return done.stdout.strip()
 
     def assert_clean(self, store):
-        done = call("verify", store)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        ended_well(call("verify", store))
 
     def query(self, store, sql):
-        done = call("query", store, sql, "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("query", store, sql, "--json"))
         return json.loads(done.stdout)["rows"]

@@ -5,7 +5,7 @@ import sqlite3
 import sys
 import unittest
 
-from programs import ProgramTest, call
+from programs import ProgramTest, call, ended_well
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 sys.path.insert(0, str(SOURCE / "analysis" / "python"))
@@ -19,8 +19,7 @@ class PythonModule(ProgramTest):
     def setUp(self):
         super().setUp()
         self.store = self.folder / "a.db"
-        done = self.run_campaign(self.store, "--workers", "1", "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(self.store, "--workers", "1", "--quiet"))
 
     def test_its_means_are_those_of_the_program(self):
         with swarmsmith.Store(self.store) as store:

@@ -7,7 +7,7 @@ import sqlite3
 import subprocess
 import unittest
 
-from programs import ProgramTest, children_of, send, wait_for
+from programs import ProgramTest, children_of, ended_well, send, wait_for
 
 SHELL = shutil.which("sqlite3")
 
@@ -126,8 +126,7 @@ class Readers(ProgramTest):
 
     def reference(self):
         store = self.folder / "reference.db"
-        done = self.run_campaign(store, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(store, "--workers", "2"))
         return self.digest(store)
 
     def assert_consistent(self, rows):

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import unittest
 
-from programs import ProgramTest, call, campaign_text, used, wait_for
+from programs import ProgramTest, call, campaign_text, ended_well, used, wait_for
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 STORES = SOURCE / "tests" / "golden" / "stores"
@@ -82,8 +82,7 @@ class Recover(ProgramTest):
     budget = 1400
 
     def done(self, *arguments, cwd=None):
-        process = call(*arguments, cwd=cwd)
-        self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
+        process = ended_well(call(*arguments, cwd=cwd))
         return process.stdout
 
     def run_kinds(self, store, methods, repetitions=1, budget=1400):
@@ -91,8 +90,7 @@ class Recover(ProgramTest):
                   for name in methods]
         self.file.write_text(campaign_text(budget, seed=5, tests=6, name="kinds", repetitions=repetitions, duration="5 s",
                                            methods=tables, profile=None, more=FURTHER_PROFILES))
-        done = self.run_campaign(store, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        ended_well(self.run_campaign(store, "--workers", "2"))
 
     def count(self, store):
         """Rows of each table; what programs say of themselves is not in it."""
@@ -143,8 +141,7 @@ class Recover(ProgramTest):
         for words in ((), ("extend", one, "d1", "--budget", "200")):
             if words:
                 self.done(*words)
-            done = self.run_campaign(one, "--workers", "1")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(self.run_campaign(one, "--workers", "1"))
         self.recovered(one)
         self.run_kinds(two, ["random"], repetitions=2)
         self.done("merge", one, two, "-o", both)
@@ -162,8 +159,7 @@ class Recover(ProgramTest):
     def test_of_rows_that_another_program_changed(self):
         """What follows from scores is derived anew, a score of another value is evaluated again; what can be neither is said."""
         whole, store = self.folder / "whole.db", self.folder / "changed.db"
-        done = self.run_campaign(whole, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(whole, "--workers", "2"))
         with contextlib.closing(sqlite3.connect(whole)) as db:
             db.execute("PRAGMA journal_mode = DELETE")
             machine, = db.execute("SELECT machine FROM phrase WHERE machine <> '' ORDER BY id DESC").fetchone()
@@ -188,8 +184,7 @@ class Recover(ProgramTest):
                 self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
                 if becomes == "evaluated":
                     self.assertRegex(said.stdout, r"d1: \d+ evaluations are missing")
-                    again = self.run_campaign(out, "--workers", "2")
-                    self.assertEqual(again.returncode, 0, again.stderr)
+                    ended_well(self.run_campaign(out, "--workers", "2"))
                 self.assertEqual(self.digest(out), right)
                 self.done("verify", out, "--sample", "0")
 
@@ -217,9 +212,8 @@ class Recover(ProgramTest):
         self.recovered(store, sample=())
 
     def test_of_a_tuned_function(self):
-        done = subprocess.run([sys.executable, "-c", TUNER], cwd=self.folder, capture_output=True, text=True, timeout=120,
-                              env={**os.environ, "PYTHONPATH": str(SOURCE / "analysis" / "python")})
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(subprocess.run([sys.executable, "-c", TUNER], cwd=self.folder, capture_output=True, text=True, timeout=120,
+                                  env={**os.environ, "PYTHONPATH": str(SOURCE / "analysis" / "python")}))
         self.recovered(self.folder / "tuned.db", sample=())
 
     def test_of_stores_of_earlier_versions(self):

@@ -5,7 +5,7 @@ import sqlite3
 import unittest
 import xml.etree.ElementTree as xml
 
-from programs import ProgramTest, call
+from programs import ProgramTest, call, ended_well
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -17,8 +17,7 @@ class Replay(ProgramTest):
     def setUp(self):
         super().setUp()
         self.store = self.folder / "campaign.db"
-        done = self.run_campaign(self.store, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(self.store, "--workers", "2"))
 
     def winner_test(self):
         """Id, seed and score of the winner's first test evaluation."""
@@ -27,17 +26,15 @@ class Replay(ProgramTest):
         return row["id"], row["seed"], row["score"]
 
     def test_what_workers_scored_comes_out_again_bit_by_bit(self):
-        done = call("replay", "--sample", 60, self.store, "--json")
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        done = ended_well(call("replay", "--sample", 60, self.store, "--json"))
         self.assertEqual(json.loads(done.stdout),
                          {"replayed": 60, "same_bits": 60, "different": []})
 
     def test_a_run_is_written_down_as_table_and_picture(self):
         name, seed, score = self.winner_test()
         table, picture = self.folder / "run.csv", self.folder / "run.svg"
-        done = call("replay", name, self.store, "--csv", table, "--readings", "proximity",
-                    "--svg", picture, "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("replay", name, self.store, "--csv", table, "--readings", "proximity",
+                               "--svg", picture, "--json"))
         answer = json.loads(done.stdout)
         self.assertTrue(answer["same_bits"])
         self.assertEqual((answer["score"], answer["seed"]), (score, seed))

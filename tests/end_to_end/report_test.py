@@ -8,7 +8,7 @@ import subprocess
 import unittest
 import xml.etree.ElementTree
 
-from programs import SWARMSMITH, ProgramTest, call
+from programs import SWARMSMITH, ProgramTest, call, ended_well
 
 
 class Page(html.parser.HTMLParser):
@@ -49,8 +49,7 @@ class Report(ProgramTest):
         if "campaign" not in Report.stores:
             text = self.file.read_text().replace("seed = 7\n", "seed = 7\nrepetitions = 2\n")
             self.file.write_text(text)
-            done = self.run_campaign(self.store, "--workers", "2")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(self.run_campaign(self.store, "--workers", "2"))
             Report.stores["campaign"] = self.store.read_bytes()
         self.store.write_bytes(Report.stores["campaign"])
 
@@ -135,9 +134,8 @@ class Report(ProgramTest):
     def test_checksums_cover_every_file(self):
         folder = self.folder / "supplement"
         self.answer("supplement", self.store, "-o", folder)
-        done = subprocess.run(["sha256sum", "-c", "--strict", "SHA256SUMS"], cwd=folder,
-                              capture_output=True, text=True, timeout=60)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        ended_well(subprocess.run(["sha256sum", "-c", "--strict", "SHA256SUMS"], cwd=folder,
+                                  capture_output=True, text=True, timeout=60))
         listed = dict(reversed(line.split("  ", 1))
                       for line in (folder / "SHA256SUMS").read_text().splitlines())
         files = self.files_of(folder)
@@ -151,8 +149,7 @@ class Report(ProgramTest):
         readme = (folder / "README.md").read_text()
         self.assertIn(self.digest(self.store), readme)
         self.assertIn("swarmsmith run campaign.toml", readme)
-        done = call("run", "campaign.toml", "--workers", "2", "-q", cwd=folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("run", "campaign.toml", "--workers", "2", "-q", cwd=folder))
         self.assertEqual(self.digest(folder / "campaign.db"), self.digest(self.store))
         machines = sorted((folder / "controllers").glob("*.txt"))
         self.assertGreater(len(machines), 1)
@@ -162,8 +159,7 @@ class Report(ProgramTest):
                 self.store, f"SELECT score FROM v_design_scores WHERE design = {design} AND purpose = 'test' "
                             "ORDER BY pair")]
             self.assertGreater(len(stored), 0)
-            again = call("evaluate", machine, "--json")
-            self.assertEqual(again.returncode, 0, again.stderr)
+            again = ended_well(call("evaluate", machine, "--json"))
             self.assertEqual([json.loads(line)["score"] for line in again.stdout.splitlines()], stored)
 
     def test_nothing_is_overwritten(self):
@@ -182,11 +178,10 @@ class Report(ProgramTest):
     def test_without_rsvg_convert_there_are_no_pdfs_and_that_is_said(self):
         programs = self.folder / "bin"
         programs.mkdir()
-        done = subprocess.run([SWARMSMITH, "supplement",
-                               str(self.store), "-o", str(self.folder / "plain")],
-                              capture_output=True, text=True, timeout=120,
-                              env={"PATH": str(programs)})
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(subprocess.run([SWARMSMITH, "supplement",
+                                          str(self.store), "-o", str(self.folder / "plain")],
+                                         capture_output=True, text=True, timeout=120,
+                                         env={"PATH": str(programs)}))
         self.assertIn("librsvg2-bin", done.stderr)
         names = self.files_of(self.folder / "plain")
         self.assertFalse([name for name in names if name.endswith(".pdf")])

@@ -7,7 +7,7 @@ import signal
 import sqlite3
 import unittest
 
-from programs import ProgramTest, call, wait_for
+from programs import ProgramTest, call, ended_well, wait_for
 
 GOLDEN = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden"
 ARGOS = GOLDEN / "argos"
@@ -43,8 +43,7 @@ class Results(ProgramTest):
 
     def done(self, *arguments):
         """Standard output of a command that must succeed."""
-        process = call(*arguments)
-        self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
+        process = ended_well(call(*arguments))
         return process.stdout
 
     def refused(self, code, sentence, *arguments):
@@ -233,8 +232,7 @@ class Results(ProgramTest):
         process.wait()
         self.imported(ARGOS / "argos-thesis-designs.csv", "--flavour", "watermelon-argos3", *RENAMED,
                       "--into", store)
-        done = self.run_campaign(store, "--workers", "1")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(store, "--workers", "1"))
         rows = "SELECT candidate, pair, score FROM v_evaluations WHERE used AND design = 1"
         self.assertEqual(self.query(store, rows + " ORDER BY 1, 2"),
                          self.query(whole, rows + " ORDER BY 1, 2"))

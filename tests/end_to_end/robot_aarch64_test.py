@@ -9,7 +9,7 @@ import unittest
 
 import bundle_test
 import robots
-from programs import ProgramTest, call
+from programs import ProgramTest, call, ended_well
 from robot_lock_step_test import WATERMELON
 from robots import Process, ZeroMq, machine_file
 
@@ -83,8 +83,7 @@ class Aarch64(ProgramTest):
         if why := bundle_test.why_not():
             self.skipTest(why)
         local = self.folder / "local.db"
-        done = self.run_campaign(local, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(local, "--workers", "2"))
         store = self.folder / "both.db"
         coordinator, port = bundle_test.serve(self, store)
         where = ["--connect", f"tcp://127.0.0.1:{port}", "--slots", "1"]

@@ -8,7 +8,7 @@ import sys
 import unittest
 
 import robots
-from programs import ProgramTest, call
+from programs import ProgramTest, call, ended_well
 from robots import ROBOT, Process, ZeroMq, machine_file
 
 DRIVER = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "examples" / "robot" / "driver.py"
@@ -54,8 +54,7 @@ class Driver(ProgramTest):
 
     def test_with_a_workers_key(self):
         keys = self.folder / "keys"
-        done = call("keygen", keys)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("keygen", keys))
         self.driven(ZeroMq(keys), [keys / "worker.key"])
 
 

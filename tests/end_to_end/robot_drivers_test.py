@@ -25,8 +25,8 @@ ALLOWED_S = 0.3
 TOLD_S = 0.05
 
 
-class Drivers(ProgramTest):
-    kind = ""
+class Drivers:
+    """The tests of both ways to the robots, one a fault."""
 
     def setUp(self):
         super().setUp()
@@ -117,8 +117,6 @@ class Drivers(ProgramTest):
         self.assertEqual(times[-1][1], 0, times[-3:])
         self.assertLess(times[-1][0], STANDS_AFTER + TOLD_S)
 
-    # A test a fault.
-
     def obeys(self, seconds=3):
         treads = self.driver("treads")
         start = self.start("r0", seconds)
@@ -130,29 +128,38 @@ class Drivers(ProgramTest):
         self.assertLess(end["driver_off_s"], 0.3)
         return treads
 
-    def silent(self):
+    def test_silent(self):
         treads, start = self.begin()
         treads.signal(signal.SIGSTOP)
         self.assert_invalid(start, time.monotonic(), "does not say what the treads do")
 
-    def dead(self):
+    def test_dead(self):
         treads, start = self.begin()
         treads.kill()
         self.assert_invalid(start, time.monotonic(), "is gone: no driver listens to the speeds|does not say what the treads do")
 
-    def replaced(self):
+    def test_replaced(self):
         treads, start = self.begin()
         treads.kill()
         fault_at = time.monotonic()
         self.driver("treads")
         self.assert_invalid(start, fault_at, "drives the treads in place of|is gone: no driver listens|does not say what the treads do")
 
+    def test_a_driver_that_obeys_is_valid(self):
+        self.obeys()
+
     def slow(self, seconds):
         treads, start = self.begin()
         self.spoil(treads, f"slow {seconds}")
         self.assert_invalid(start, treads, r"s behind|after its command", resumes=True)
 
-    def half(self):
+    def test_slow(self):
+        self.slow(1)
+
+    def test_slow_by_half_a_second(self):
+        self.slow(0.5)
+
+    def test_half_of_the_treads(self):
         """Its run before is VALID."""
         treads = self.obeys(seconds=1)
         treads.out.clear()
@@ -166,81 +173,6 @@ class Drivers(ProgramTest):
         self.spoil(treads, fault)
         self.assert_invalid(start, treads, "it obeys another one")
 
-    def invented(self):
-        treads, start = self.begin()
-        fault_at = self.spoil(treads, "invented")
-        self.assert_invalid(start, fault_at, "it obeys another one")
-
-    def stuck(self):
-        """It does what is commanded half of the time, by chance."""
-        treads, start = self.begin()
-        fault_at = self.spoil(treads, "stuck")
-        self.assert_invalid(start, fault_at, r"s behind|does not do \S+ and \S+ m/s, which was commanded \d+ times", within=8)
-
-    def deaf(self):
-        """Its treads stand."""
-        treads, start = self.begin()
-        self.spoil(treads, "deaf")
-        self.assert_invalid(start, None, "holds them")
-
-    def stutters(self):
-        treads, start = self.begin()
-        self.spoil(treads, "stutters")
-        self.assert_invalid(start, None, "does not say what the treads do|s behind")
-
-    def late_by_no_more_than_is_allowed(self):
-        treads, start = self.begin(seconds=8)
-        self.spoil(treads, "slow 0.15")
-        self.assertEqual(start.end(), 0, start.said())
-
-    def second(self):
-        treads, start = self.begin()
-        self.driver("second", "/elsewhere/second")
-        fault_at = time.monotonic()
-        self.assert_invalid(start, fault_at, "drives the treads, too, beside")
-        self.assert_treads_stand(treads, fault_at)
-
-
-    def quiet(self):
-        _, start = self.begin(seconds=2, role="quiet")
-        self.assertEqual(start.end(), 0, start.said())
-        self.assertIn("driver: no driver says what the treads do", start.said())
-        self.assertIn("r1: DEGRADED", start.said())
-
-    def quiet_and_hangs(self):
-        treads, start = self.begin(role="quiet")
-        treads.signal(signal.SIGSTOP)
-        self.assert_invalid(start, time.monotonic(), "gives no sign of life", within=1.5)
-
-
-@robots.by_the_clock
-class OverZeroMq(Drivers):
-    kind = "zeromq"
-
-    def way(self):
-        return ZeroMq()
-
-    def test_a_driver_that_obeys_is_valid(self):
-        self.obeys()
-
-    def test_silent(self):
-        self.silent()
-
-    def test_dead(self):
-        self.dead()
-
-    def test_replaced(self):
-        self.replaced()
-
-    def test_slow(self):
-        self.slow(1)
-
-    def test_slow_by_half_a_second(self):
-        self.slow(0.5)
-
-    def test_half_of_the_treads(self):
-        self.half()
-
     def test_contradicted(self):
         self.other_speeds("foreign")
 
@@ -251,28 +183,57 @@ class OverZeroMq(Drivers):
         self.other_speeds("reversed")
 
     def test_one_that_says_what_was_never_commanded(self):
-        self.invented()
+        treads, start = self.begin()
+        fault_at = self.spoil(treads, "invented")
+        self.assert_invalid(start, fault_at, "it obeys another one")
 
     def test_stuck(self):
-        self.stuck()
+        """It does what is commanded half of the time, by chance."""
+        treads, start = self.begin()
+        fault_at = self.spoil(treads, "stuck")
+        self.assert_invalid(start, fault_at, r"s behind|does not do \S+ and \S+ m/s, which was commanded \d+ times", within=8)
 
     def test_one_that_hears_no_speeds(self):
-        self.deaf()
+        """Its treads stand."""
+        treads, start = self.begin()
+        self.spoil(treads, "deaf")
+        self.assert_invalid(start, None, "holds them")
 
     def test_one_that_stutters(self):
-        self.stutters()
+        treads, start = self.begin()
+        self.spoil(treads, "stutters")
+        self.assert_invalid(start, None, "does not say what the treads do|s behind")
 
     def test_one_that_is_late_by_no_more_than_is_allowed(self):
-        self.late_by_no_more_than_is_allowed()
+        treads, start = self.begin(seconds=8)
+        self.spoil(treads, "slow 0.15")
+        self.assertEqual(start.end(), 0, start.said())
 
     def test_a_second_one(self):
-        self.second()
+        treads, start = self.begin()
+        self.driver("second", "/elsewhere/second")
+        fault_at = time.monotonic()
+        self.assert_invalid(start, fault_at, "drives the treads, too, beside")
+        self.assert_treads_stand(treads, fault_at)
 
     def test_one_that_does_not_say_what_the_treads_do(self):
-        self.quiet()
+        _, start = self.begin(seconds=2, role="quiet")
+        self.assertEqual(start.end(), 0, start.said())
+        self.assertIn("driver: no driver says what the treads do", start.said())
+        self.assertIn("r1: DEGRADED", start.said())
 
     def test_one_that_does_not_say_what_the_treads_do_and_hangs(self):
-        self.quiet_and_hangs()
+        treads, start = self.begin(role="quiet")
+        treads.signal(signal.SIGSTOP)
+        self.assert_invalid(start, time.monotonic(), "gives no sign of life", within=1.5)
+
+
+@robots.by_the_clock
+class OverZeroMq(Drivers, ProgramTest):
+    kind = "zeromq"
+
+    def way(self):
+        return ZeroMq()
 
     def test_how_the_run_of_a_killed_node_ended_is_unknown(self):
         treads, start = self.begin()
@@ -295,65 +256,11 @@ class OverZeroMq(Drivers):
 
 @unittest.skipIf(NO_ROS, NO_ROS or "")
 @robots.by_the_clock
-class OverRos(Drivers):
+class OverRos(Drivers, ProgramTest):
     kind = "ros"
 
     def way(self):
         return Master(self, self.folder)
-
-    def test_a_driver_that_obeys_is_valid(self):
-        self.obeys()
-
-    def test_silent(self):
-        self.silent()
-
-    def test_dead(self):
-        self.dead()
-
-    def test_replaced(self):
-        self.replaced()
-
-    def test_slow(self):
-        self.slow(1)
-
-    def test_slow_by_half_a_second(self):
-        self.slow(0.5)
-
-    def test_half_of_the_treads(self):
-        self.half()
-
-    def test_contradicted(self):
-        self.other_speeds("foreign")
-
-    def test_half_of_the_speed(self):
-        self.other_speeds("weak")
-
-    def test_backwards(self):
-        self.other_speeds("reversed")
-
-    def test_one_that_says_what_was_never_commanded(self):
-        self.invented()
-
-    def test_stuck(self):
-        self.stuck()
-
-    def test_one_that_hears_no_speeds(self):
-        self.deaf()
-
-    def test_one_that_stutters(self):
-        self.stutters()
-
-    def test_one_that_is_late_by_no_more_than_is_allowed(self):
-        self.late_by_no_more_than_is_allowed()
-
-    def test_a_second_one(self):
-        self.second()
-
-    def test_one_that_does_not_say_what_the_treads_do(self):
-        self.quiet()
-
-    def test_one_that_does_not_say_what_the_treads_do_and_hangs(self):
-        self.quiet_and_hangs()
 
     def test_another_one_that_sends_speeds(self):
         treads, start = self.begin()

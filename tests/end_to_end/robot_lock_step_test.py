@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 import robots
-from programs import ProgramTest, call
+from programs import ProgramTest, call, ended_well
 from robots import Master, ZeroMq, machine_file
 
 # Each looks at the floor, at others and at obstacles, and draws.
@@ -46,9 +46,8 @@ class LockStep(ProgramTest):
         self.assertEqual(code, 0, said)
         rows = world.rows()
         self.assertTrue(all(row["same_in_process"] for row in rows), rows)
-        done = call("evaluate", machine, "--flavour", flavour, "--profile", profile, "--mission", mission,
-                    "--seeds", seeds, "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("evaluate", machine, "--flavour", flavour, "--profile", profile, "--mission", mission,
+                               "--seeds", seeds, "--json"))
         evaluated = [json.loads(line) for line in done.stdout.splitlines()]
         self.assertEqual([(row["seed"], row["score"]) for row in rows],
                          [(row["seed"], row["score"]) for row in evaluated])
@@ -135,8 +134,7 @@ class OverRos(LockStep):
         self.assertIn('wire = "float32"', world.said())
 
     def wire_profile(self, name, *changes):
-        done = call("profile", name)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("profile", name))
         text = done.stdout
         for pattern, by in ((r'(?m)^wire( *)= "float64"', r'wire\1= "float32"'), *changes):
             changed = re.sub(pattern, by, text)
@@ -153,8 +151,7 @@ class OverZeroMq(LockStep):
 
     def test_the_same_bits_with_keys(self):
         keys = self.folder / "keys"
-        done = call("keygen", keys)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("keygen", keys))
         self.compared(ZeroMq(keys), mission_of(self.folder, "color_selection"), "chocolate", "pseudo-reality", "7")
 
     def test_the_same_bits_by_counting(self):

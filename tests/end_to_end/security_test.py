@@ -6,7 +6,7 @@ import stat
 import subprocess
 import unittest
 
-from programs import PATIENCE, SWARMSMITH, ProgramTest, call, wait_for
+from programs import PATIENCE, SWARMSMITH, ProgramTest, call, ended_well, wait_for
 
 DEADLINE_S = 60 * PATIENCE
 
@@ -17,8 +17,7 @@ class Security(ProgramTest):
     def setUp(self):
         super().setUp()
         self.keys = self.folder / "keys"
-        done = call("keygen", self.keys)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("keygen", self.keys))
         self.store = self.folder / "s.db"
         self.where = self.folder / "s.db.coordinator"
 
@@ -44,8 +43,7 @@ class Security(ProgramTest):
 
     def expected(self):
         plain = self.folder / "plain.db"
-        done = self.run_campaign(plain)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(plain))
         return self.digest(plain)
 
     def stored(self):
@@ -91,8 +89,7 @@ class Security(ProgramTest):
                                  strangers_log.read_text())
 
     def test_local_workers_show_the_workers_key(self):
-        done = self.run_campaign(self.store, "--keys", self.keys, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(self.store, "--keys", self.keys, "--workers", "2"))
         self.assertEqual(self.digest(self.store), self.expected())
         rows = self.query(self.store, "select distinct client from worker")
         self.assertEqual(rows, [{"client": "worker"}])
@@ -102,13 +99,11 @@ class Security(ProgramTest):
         for role, code in (("reader", 1), ("worker", 1), ("operator", 0)):
             done = call("pause", self.store, "--key", self.keys / f"{role}.key")
             self.assertEqual(done.returncode, code, role + ": " + done.stdout + done.stderr)
-        done = call("status", self.store, "--key", self.keys / "reader.key", "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("status", self.store, "--key", self.keys / "reader.key", "--json"))
         worker, workers_log = self.worker("worker", "--key", self.keys / "worker.key")
         wait_for(lambda: self.query(self.store, "select * from worker"), "the worker")
         self.assertEqual(self.stored(), 0, "what is paused is not leased")
-        done = call("resume", self.store, "--key", self.keys / "operator.key")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("resume", self.store, "--key", self.keys / "operator.key"))
         self.assertEqual(worker.wait(timeout=DEADLINE_S), 0, workers_log.read_text())
         self.assertEqual(server.wait(timeout=DEADLINE_S), 0, log.read_text())
         self.assertEqual(self.digest(self.store), self.expected())

@@ -7,7 +7,7 @@ import shutil
 import sqlite3
 import unittest
 
-from programs import ProgramTest, call, used, wait_for
+from programs import ProgramTest, call, ended_well, used, wait_for
 
 PAGE = 8192
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
@@ -20,13 +20,11 @@ class Stores(ProgramTest):
     def made(self, name, seed):
         """A finished store of the test's campaign with another seed."""
         store = self.folder / name
-        done = self.run_campaign(store, "--workers", "2", "--seed", seed)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(store, "--workers", "2", "--seed", seed))
         return store
 
     def answer(self, *arguments):
-        done = call(*arguments, "--json")
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        done = ended_well(call(*arguments, "--json"))
         return json.loads(done.stdout)
 
 
@@ -43,8 +41,7 @@ class OldStores(Stores):
                 else:
                     self.assertIn("<svg", itself.stdout)
                 self.assertEqual(self.answer("backup", old, copy)["from_schema"], schema)
-                drawn = call("figure", "machine", copy)
-                self.assertEqual(drawn.returncode, 0, drawn.stderr)
+                drawn = ended_well(call("figure", "machine", copy))
                 self.assertIn("<svg", drawn.stdout)
                 self.assertEqual(old.read_bytes(), kept.read_bytes())
 
@@ -119,8 +116,7 @@ class Merge(Stores):
         own = self.answer("export", self.second, "--format", "json")["machines"]
         self.assertEqual(machines[1]["fsm_config"], own[0]["fsm_config"])
         best = machines[1]["candidate"]
-        done = call("evaluate", best, "--store", self.merged, "--seeds", "1-2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("evaluate", best, "--store", self.merged, "--seeds", "1-2"))
 
     def test_it_is_there_to_be_read(self):
         digest = self.told["digest"]
@@ -163,8 +159,7 @@ class Recover(Stores):
         return self.answer("recover", self.damaged, "-o", self.new, *arguments)
 
     def assert_goes_on_to_the_same_answer(self):
-        done = self.run_campaign(self.new, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(self.new, "--workers", "2"))
         self.assertEqual(self.digest(self.new), self.wanted)
         self.assert_clean(self.new)
 

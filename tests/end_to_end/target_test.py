@@ -7,7 +7,7 @@ import shutil
 import signal
 import unittest
 
-from programs import SWARMSMITH, ProgramTest, call, send, used, wait_for
+from programs import SWARMSMITH, ProgramTest, call, ended_well, send, used, wait_for
 
 EXAMPLE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "examples" / "target"
 
@@ -105,8 +105,7 @@ class Target(ProgramTest):
 
     def test_the_example_runs_and_is_found_clean_without_its_files(self):
         store = self.folder / "example.db"
-        done = self.run_campaign(store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(self.run_campaign(store))
         self.assertIn("mean cost", done.stdout)
         self.assertIn("--effort ", done.stdout)
         [best] = self.query(store, "SELECT c.parameters FROM v_designs AS d JOIN v_candidates AS c "
@@ -119,8 +118,7 @@ class Target(ProgramTest):
         self.assert_clean(store)
         self.assertEqual(self.digest(store), digest)
         for what in (["ls", "elites"], ["show", "d1"], ["export"], ["status"]):
-            done = call(*what, "--store", store)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(call(*what, "--store", store))
         self.assertNotIn("--fsm-config", call("export", store).stdout)
         refused = call("replay", "e100001", store)
         self.assertIn("a program scored it", refused.stderr)
@@ -131,8 +129,7 @@ class Target(ProgramTest):
         self.assertIn("nothing was evaluated again", call("verify", store).stdout)
 
     def test_check_runs_no_program_and_names_a_missing_one(self):
-        done = call("check", self.file)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("check", self.file))
         self.assertIn("by " + str(self.scenario / "target-runner"), done.stdout)
         (self.scenario / "target-runner").unlink()
         for command in ("check", "run"):
@@ -142,8 +139,7 @@ class Target(ProgramTest):
 
     def test_killed_at_any_moment_it_comes_to_the_same_answer(self):
         whole = self.folder / "whole.db"
-        done = self.run_campaign(whole, "--workers", "1")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(whole, "--workers", "1"))
         store = self.folder / "killed.db"
         rng = random.Random(3)
         for _ in range(6):
@@ -153,8 +149,7 @@ class Target(ProgramTest):
             self.assertIsNone(process.poll(), "it ended before it could be killed")
             send(process.pid, signal.SIGKILL)
             process.wait()
-        done = self.run_campaign(store, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(store, "--workers", "2"))
         self.assert_clean(store)
         self.assertEqual(self.digest(store), self.digest(whole))
 
@@ -172,8 +167,7 @@ class Target(ProgramTest):
     def test_an_imported_scenario_is_the_same_race(self):
         (self.scenario / "scenario.txt").write_text(SCENARIO)
         made = self.scenario / "imported.toml"
-        done = call("import", self.scenario / "scenario.txt", "-o", made)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("import", self.scenario / "scenario.txt", "-o", made))
         store = self.folder / "imported.db"
         self.assertEqual(call("run", made, "--store", store).returncode, 0)
         self.assert_clean(store)
@@ -188,8 +182,7 @@ class Target(ProgramTest):
         self.file = self.scenario / "machines.toml"
         self.file.write_text(MACHINES)
         store = self.folder / "machines.db"
-        done = self.run_campaign(store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(store))
         rows = self.query(store, "SELECT c.fsm_config, e.seed, e.score FROM v_evaluations AS e "
                                  "JOIN v_candidates AS c ON c.candidate = e.candidate "
                                  "WHERE e.score <> 0 LIMIT 5")

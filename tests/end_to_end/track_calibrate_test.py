@@ -11,7 +11,7 @@ import tempfile
 import unittest
 import zlib
 
-from programs import BIN, PATIENCE
+from programs import BIN, PATIENCE, ended_well
 
 BOARD = "charuco:9x6:0.04:0.03:4x4_50"
 
@@ -107,17 +107,15 @@ class Truth(Laboratory):
         self.assertLess(abs(Rendered.offset["yaw_rad"] - true["yaw"]), math.radians(0.5))
 
     def test_the_arena_is_ready_then(self):
-        run = track("check", "arena.toml", "--json", cwd=self.root)
-        self.assertEqual(run.returncode, 0, run.stderr)
+        run = ended_well(track("check", "arena.toml", "--json", cwd=self.root))
         self.assertTrue(json.loads(run.stdout)["ready"])
 
 
 class Live(Laboratory):
     def test_the_preview_says_what_the_board_covers_so_far(self):
         # Pictures come at the pace of a video; how many of them are dropped is the machine's.
-        run = track("live", "--arena", self.arena, "--camera", self.root / "ceiling.board",
-                    "--board", BOARD, "--port", "0")
-        self.assertEqual(run.returncode, 0, run.stderr)
+        run = ended_well(track("live", "--arena", self.arena, "--camera", self.root / "ceiling.board",
+                               "--board", BOARD, "--port", "0"))
         said = re.search(r"board: (\d+) views, (\d) of 9 ninths, (\d+) % of the frame", run.stderr)
         self.assertIsNotNone(said, run.stderr)
         views, ninths, share = map(int, said.groups())
@@ -214,9 +212,8 @@ class Cameras(Laboratory):
     def test_a_wrong_square_shows_nowhere_but_a_wrong_shape_does(self):
         # Squares of another size only scale the world before the camera: f stays the same.
         pictures = self.root / "ceiling.board"
-        run = track(*self.calibrate(pictures, board="charuco:9x6:0.08:0.06:4x4_50"), "--json",
-                    cwd=self.copy)
-        self.assertEqual(run.returncode, 0, run.stderr)
+        run = ended_well(track(*self.calibrate(pictures, board="charuco:9x6:0.08:0.06:4x4_50"), "--json",
+                               cwd=self.copy))
         self.assertLess(abs(json.loads(run.stdout)["fx"] / Rendered.camera["fx"] - 1), 0.001)
         self.refused(1, self.calibrate(pictures, board="charuco:6x9:0.04:0.03:4x4_50"),
                      "E_CALIB_QUALITY")
@@ -225,9 +222,8 @@ class Cameras(Laboratory):
         self.refused(1, self.calibrate(self.root / "ceiling.arena.avi"), "E_CALIB_QUALITY")
 
     def test_a_place_of_the_last_lens_is_to_be_found_again(self):
-        run = track("calibrate", "camera", self.root / "ceiling.board", "--board", BOARD,
-                    "--arena", "arena.toml", cwd=self.copy)
-        self.assertEqual(run.returncode, 0, run.stderr)
+        run = ended_well(track("calibrate", "camera", self.root / "ceiling.board", "--board", BOARD,
+                               "--arena", "arena.toml", cwd=self.copy))
         self.assertIn("Corners in each ninth", run.stdout)
         self.assertIn("calibrate arena --again --arena arena.toml", run.stderr)
 
@@ -259,8 +255,7 @@ class Arenas(Laboratory):
             self.refused(1, words, "E_EXTRINSICS", "worst is tag 103")
         self.arena.write_text(good)
         before = (self.copy / "ceiling.place.toml").read_text()
-        run = track(*self.AGAIN, cwd=self.copy)
-        self.assertEqual(run.returncode, 0, run.stderr)
+        ended_well(track(*self.AGAIN, cwd=self.copy))
         after = (self.copy / "ceiling.place.toml").read_text()
         without_date = lambda text: [line for line in text.splitlines() if "made" not in line]
         self.assertEqual(without_date(before), without_date(after))

@@ -9,7 +9,7 @@ import tempfile
 import threading
 import unittest
 
-from programs import BIN, wait_for
+from programs import BIN, ended_well, wait_for
 
 TRACK = str(BIN / "swarmsmith-track")
 WIDTH, HEIGHT = 160, 120
@@ -84,8 +84,7 @@ class TrackRecord(unittest.TestCase):
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def recorded(self, *arguments, **options):
-        done = self.record(*arguments, "--json", **options)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(self.record(*arguments, "--json", **options))
         return json.loads(done.stdout)
 
     def times(self, name):

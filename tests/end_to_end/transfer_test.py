@@ -5,7 +5,7 @@ import unittest
 from collections import defaultdict
 from statistics import fmean
 
-from programs import ProgramTest, call, campaign_text
+from programs import ProgramTest, call, campaign_text, ended_well
 
 EVOSTICK = 'name = "evostick"\nmethod = "evostick"\n  [method.evolution]\n  population = 20\n  runs = 5\n  final_runs = 10'
 
@@ -18,16 +18,13 @@ class Transfer(ProgramTest):
             methods=['name = "machine"', EVOSTICK], profile=None,
             more='\n[tests]\nprofiles = ["rvr", "pseudo-reality"]\n'))
         self.store = self.folder / "one.db"
-        done = self.run_campaign(self.store, "--workers", "1")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(self.store, "--workers", "1"))
 
     def test_one_answer_and_clean(self):
         other = self.folder / "three.db"
-        done = self.run_campaign(other, "--workers", "3")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(other, "--workers", "3"))
         self.assertEqual(self.digest(self.store), self.digest(other))
-        done = call("verify", other, "--sample", "50")
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        ended_well(call("verify", other, "--sample", "50"))
         self.runs_are_paired()
         self.one_can_be_looked_at()
         self.table_is_right()
@@ -48,8 +45,7 @@ class Transfer(ProgramTest):
     def one_can_be_looked_at(self):
         evaluation = self.query(self.store, "SELECT id, score FROM v_evaluations"
                                 " WHERE purpose = 'transfer' ORDER BY candidate, pair LIMIT 1")[0]
-        done = call("replay", evaluation["id"], "--store", self.store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("replay", evaluation["id"], "--store", self.store))
         self.assertIn("same bits as stored", done.stdout)
         done = call("explain", evaluation["id"], "--store", self.store)
         self.assertIn("under a further profile", done.stdout)
@@ -65,8 +61,7 @@ class Transfer(ProgramTest):
             if source == "rvr":
                 there = runs[mission, method, design, "pseudo-reality"]
                 drops[mission, method].append(fmean(there) - fmean(scores))
-        done = call("compare", self.store, "--by", "source", "--csv")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("compare", self.store, "--by", "source", "--csv"))
         pairs = list(csv.DictReader(io.StringIO(done.stdout)))
         self.assertEqual(len(pairs), 4)
         for pair in pairs:
@@ -76,8 +71,7 @@ class Transfer(ProgramTest):
 
     def figure_has_pairs(self):
         picture = self.folder / "box.svg"
-        done = call("figure", "box", self.store, "--by", "method", "-o", picture)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("figure", "box", self.store, "--by", "method", "-o", picture))
         svg = picture.read_text()
         self.assertIn("narrow boxes: rvr; wide boxes: pseudo-reality", svg)
         self.assertEqual(svg.count(">evostick<"), 2, "one name below the two boxes of a mission")
@@ -87,14 +81,12 @@ class Transfer(ProgramTest):
             table = self.folder / "told.csv"
             texts = [call("compare", self.store, "--by", "source", "--csv").stdout]
             for kind in ("box", "gap"):
-                done = call("figure", kind, self.store, "-o", table)
-                self.assertEqual(done.returncode, 0, done.stderr)
+                ended_well(call("figure", kind, self.store, "-o", table))
                 texts.append(table.read_text())
             return texts
         before = told()
         for profile in ("rvr", "pseudo-reality"):
-            done = call("evaluate", "best", self.store, "--profile", profile, "--seeds", "501-503")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(call("evaluate", "best", self.store, "--profile", profile, "--seeds", "501-503"))
         later = self.query(self.store, "SELECT count(*) AS n FROM v_evaluations WHERE purpose = 'score'")
         self.assertEqual(later, [{"n": 8 * 2 * 3}])
         self.assertEqual(told(), before)

@@ -4,7 +4,7 @@ import json
 import sqlite3
 import unittest
 
-from programs import ProgramTest, call
+from programs import ProgramTest, call, ended_well
 
 ALL = 1_000_000
 
@@ -21,8 +21,7 @@ class Verify(ProgramTest):
         super().setUp()
         self.store = self.folder / "campaign.db"
         if type(self).kept is None:
-            done = self.run_campaign(self.store, "--workers", "2")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            ended_well(self.run_campaign(self.store, "--workers", "2"))
             with contextlib.closing(sqlite3.connect(self.store)) as db:
                 db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
             type(self).kept = self.store.read_bytes()

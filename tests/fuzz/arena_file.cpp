@@ -11,14 +11,7 @@ void run(std::string_view input) {
     return std::nullopt;
   };
   const auto rig = parse_rig(input, "arena.toml", nothing);
-  if (!rig) {
-    require(!rig.error().empty(), "a refusal has a reason");
-    for (const Error& error : rig.error()) {
-      require(!error.where.empty(), "an error has a place");
-      require(error.message.starts_with("E_"), "an error has a code");
-    }
-    return;
-  }
+  if (!rig) return require_reasons(rig.error(), "E_");
   require(!rig->cameras.empty(), "a rig has a camera");
   for (const RobotSetup& robot : rig->robots) {
     require(robot.edge_m > 0 && robot.height_m >= 0, "a tag has a size and a height");

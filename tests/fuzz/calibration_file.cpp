@@ -9,14 +9,7 @@ namespace {
 template <class Parse>
 void check(std::string_view input, const Parse& parse) {
   const auto calibration = parse(input, "calibration.toml");
-  if (!calibration) {
-    require(!calibration.error().empty(), "a refusal has a reason");
-    for (const Error& error : calibration.error()) {
-      require(!error.where.empty(), "an error has a place");
-      require(error.message.starts_with("E_"), "an error has a code");
-    }
-    return;
-  }
+  if (!calibration) return require_reasons(calibration.error(), "E_");
   const std::string text = calibration_text(*calibration);
   const auto again = parse(text, "again.toml");
   require(again.has_value(), "what is printed can be read");

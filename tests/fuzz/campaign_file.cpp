@@ -10,9 +10,7 @@ namespace swarmsmith::fuzz {
 void run(std::string_view input) {
   const std::filesystem::path file = "/no-such-folder/of/campaigns/campaign.toml";
   const auto campaign = parse_campaign(input, file);
-  if (!campaign) {
-    return require_reasons(campaign.error());
-  }
+  if (!campaign) return require_reasons(campaign.error());
   const std::string text = normalised_text(*campaign);
   const auto again = parse_campaign(text, file);
   require(again.has_value(), "a normalised text can be read");

@@ -28,10 +28,7 @@ const ParameterSpace& space() {
 /// Configurations that are read are valid, and read back from what is printed.
 void run(std::string_view input) {
   const auto found = parse_configurations_file({std::string(input), "c"}, space());
-  if (!found) {
-    require(!found.error().where.empty(), "an error has a place");
-    return;
-  }
+  if (!found) return require_reasons({found.error()});
   for (const Configuration& configuration : *found) {
     require(space().check(configuration).has_value(), "what is read is valid");
     require(!command_line_text(space(), configuration).empty(), "there is always an argument");

@@ -23,9 +23,7 @@ std::vector<double> lowest(const ModuleSpec& spec) {
 /// and so do machines of its behaviours.
 void run(std::string_view input) {
   const auto flavour = parse_flavour(input, "/no-such-folder/mine.toml");
-  if (!flavour) {
-    return require_reasons(flavour.error());
-  }
+  if (!flavour) return require_reasons(flavour.error());
   const auto again = parse_flavour(flavour_text(*flavour), "mine.toml");
   require(again.has_value(), "what is printed can be read");
   require(*again == *flavour, "what is printed reads back as the same");

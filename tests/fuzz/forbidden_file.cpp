@@ -10,10 +10,7 @@ void run(std::string_view input) {
   const std::vector<std::string> names = {"a", "b", "NumStates", "N0x0", "c", "alpha", "beta"};
   std::vector<Error> warnings;
   const auto clauses = parse_forbidden_file({std::string(input), "f"}, names, warnings);
-  if (!clauses) {
-    require(!clauses.error().where.empty(), "an error has a place");
-    return;
-  }
+  if (!clauses) return require_reasons({clauses.error()});
   std::string text;
   for (const Expression& clause : *clauses)
     text += print(clause) + "\n";

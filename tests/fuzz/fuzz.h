@@ -20,11 +20,13 @@ inline void require(bool holds, std::string_view what) {
   std::abort();
 }
 
-/// What is refused is refused with reasons, and with the place of each.
-inline void require_reasons(const std::vector<Error>& errors) {
+/// What is refused is refused with reasons, and with the place of each. Codes of tracking: E_.
+inline void require_reasons(const std::vector<Error>& errors, std::string_view code = {}) {
   require(!errors.empty(), "a refusal has a reason");
-  for (const Error& error : errors)
+  for (const Error& error : errors) {
     require(!error.where.empty() && !error.message.empty(), "an error has a place and a message");
+    require(error.message.starts_with(code), "an error has a code");
+  }
 }
 
 }  // namespace swarmsmith::fuzz

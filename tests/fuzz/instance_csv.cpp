@@ -9,10 +9,7 @@ namespace {
 
 void check_starts(std::string_view text) {
   const auto starts = parse_starts_csv(text);
-  if (!starts) {
-    require(!starts.error().where.empty(), "an error has a line");
-    return require(!starts.error().message.empty(), "an error has a sentence");
-  }
+  if (!starts) return require_reasons({starts.error()});
   for (const auto& [seed, poses] : *starts) {
     require(!poses.empty(), "a seed has robots");
     for (const Pose& pose : poses) {
@@ -24,10 +21,7 @@ void check_starts(std::string_view text) {
 
 void check_patches(std::string_view text) {
   const auto patches = parse_patches_csv(text);
-  if (!patches) {
-    require(!patches.error().where.empty(), "an error has a line");
-    return require(!patches.error().message.empty(), "an error has a sentence");
-  }
+  if (!patches) return require_reasons({patches.error()});
   for (const auto& [seed, placements] : *patches) {
     for (const PatchPlacement& patch : placements)
       require(std::isfinite(patch.centre.x) && std::isfinite(patch.centre.y),

@@ -35,10 +35,7 @@ void run(std::string_view input) {
   if (!dependency.empty()) sources.dependency = IraceText{std::string(dependency), "d"};
   if (input.size() % 2 == 1) sources.digits = 2;
   const auto file = parse_parameter_file(sources);
-  if (!file) {
-    require(!file.error().where.empty(), "an error has a place");
-    return;
-  }
+  if (!file) return require_reasons({file.error()});
   const auto text = print_parameter_file(file->space);
   if (!text) return;  // a value that the format cannot hold, in a text that got by without quotes
   const auto again = parse_parameter_file({{*text, "again"}, {}, {}, {}});

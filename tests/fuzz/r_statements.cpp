@@ -18,10 +18,7 @@ int depth(const r::Node& node) {
 /// Statements are read, or refused at a place within the text; no tree is too deep.
 void run(std::string_view input) {
   const auto statements = r::parse_statements(input);
-  if (!statements) {
-    require_reasons({statements.error()});
-    return;
-  }
+  if (!statements) return require_reasons({statements.error()});
   for (const r::Statement& statement : *statements)
     require(depth(statement.value) <= 1000, "trees are not deeper than 1000");
 }

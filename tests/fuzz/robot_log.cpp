@@ -6,12 +6,6 @@
 namespace swarmsmith::fuzz {
 namespace {
 
-void require_reasons(const std::vector<Error>& errors) {
-  require(!errors.empty(), "a refusal has a reason");
-  for (const Error& error : errors)
-    require(!error.where.empty(), "an error has a place");
-}
-
 void read_rows(std::string_view input) {
   auto rows = parse_log_rows(input, "run07.rvr1.log.csv");
   if (!rows) return require_reasons(rows.error());

@@ -7,14 +7,7 @@ namespace swarmsmith::fuzz {
 /// whose text reads back as the same.
 void run(std::string_view input) {
   const auto log = parse_run_log(input, "/no-such-folder/run.toml");
-  if (!log) {
-    require(!log.error().empty(), "a refusal has a reason");
-    for (const Error& error : log.error()) {
-      require(!error.where.empty(), "an error has a place");
-      require(error.message.starts_with("E_"), "an error has a code");
-    }
-    return;
-  }
+  if (!log) return require_reasons(log.error(), "E_");
   const auto again = parse_run_log(run_log_text(*log), "/no-such-folder/again.toml");
   require(again.has_value(), "what is printed can be read");
   require(*again == *log, "what is printed reads back as the same");

@@ -23,9 +23,7 @@ ScenarioSurroundings world_of(std::string_view input) {
 void run(std::string_view input) {
   const ScenarioSurroundings world = world_of(input);
   const auto file = parse_irace_scenario(input, "/tune/scenario.txt", world);
-  if (!file) {
-    return require_reasons(file.error());
-  }
+  if (!file) return require_reasons(file.error());
   std::string printed;
   for (const IraceSetting& setting : file->settings.all()) {
     if (setting.option->kind == IraceKind::Anything) continue;  // objects of R are not kept

@@ -28,10 +28,7 @@ std::string text_of(const RecordedTrajectory& recorded) {
 /// Recordings are refused with a line and a reason, or read to one that reads back as the same.
 void run(std::string_view input) {
   const auto recorded = parse_trajectory_csv(input);
-  if (!recorded) {
-    require(!recorded.error().where.empty(), "an error has a line");
-    return require(!recorded.error().message.empty(), "an error has a sentence");
-  }
+  if (!recorded) return require_reasons({recorded.error()});
   const auto again = parse_trajectory_csv(text_of(*recorded));
   require(again.has_value() && *again == *recorded, "what is printed reads back as the same");
 }

@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <array>
 #include <memory>
 #include <utility>
@@ -11,6 +9,7 @@
 #include "sim/mission/scores/spread.h"
 #include "tests/irace_core/search/played.h"
 #include "tests/sim/control/fake_senses.h"
+#include "tests/support/checks.h"
 
 // The files that the pages show, compiled as they stand there. Whether the whole program knows them
 // after their line is programs_test.py's to say, which compiles it.
@@ -38,15 +37,14 @@ TEST(HowTo, TheSearchOfMethodsKeepsToItsBudgetAndFindsTheSphere) {
   scenario.max_experiments = 12'000;
   scenario.seed = 3;
   auto space = std::make_unique<ParameterSpace>(weights_space(4));
-  auto strategy = HalvingOptions{}.start(
-      {.space = *space, .scenario = scenario, .initial = {}, .repair = {}, .neighbourhood = {}});
-  ASSERT_TRUE(strategy);
-  auto search = search::SearchLoop::start(std::move(space), scenario, std::move(*strategy));
-  ASSERT_TRUE(search);
-  const Played played = play(**search, noisy_sphere);
-  EXPECT_LE((*search)->experiments_used(), scenario.max_experiments);
-  EXPECT_EQ((*search)->experiments_used(), played.asked);
-  const Configuration& best = (*search)->configuration(played.elites.front().configuration);
+  auto strategy = value_of(HalvingOptions{}.start(
+      {.space = *space, .scenario = scenario, .initial = {}, .repair = {}, .neighbourhood = {}}));
+  auto search =
+      value_of(search::SearchLoop::start(std::move(space), scenario, std::move(strategy)));
+  const Played played = play(*search, noisy_sphere);
+  EXPECT_LE(search->experiments_used(), scenario.max_experiments);
+  EXPECT_EQ(search->experiments_used(), played.asked);
+  const Configuration& best = search->configuration(played.elites.front().configuration);
   double distance = 0;
   for (std::size_t i = 0; i < best.size(); ++i)
     distance += (best[i] - 1) * (best[i] - 1);
@@ -57,10 +55,13 @@ TEST(HowTo, TheSearchOfMethodsSaysWhichBudgetWorks) {
   Scenario scenario;
   scenario.max_experiments = 9;
   const ParameterSpace space = weights_space(2);
-  const auto strategy = HalvingOptions{}.start(
-      {.space = space, .scenario = scenario, .initial = {}, .repair = {}, .neighbourhood = {}});
-  ASSERT_FALSE(strategy);
-  EXPECT_NE(strategy.error().message.find("must be at least 10"), std::string::npos);
+  EXPECT_THAT(why_not(HalvingOptions{}.start({.space = space,
+                                              .scenario = scenario,
+                                              .initial = {},
+                                              .repair = {},
+                                              .neighbourhood = {}}))
+                  .message,
+              HasSubstr("must be at least 10"));
 }
 
 TEST(HowTo, TheScoreOfMissionsMeasuresDistances) {

@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-
 #include <limits>
 
 #include "coordinator/campaign/campaign_text.h"
@@ -8,15 +6,12 @@
 #include "sim/mission/score.h"
 #include "sim/mission/trajectory.h"
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/checks.h"
 
 // The kind `spread` of docs/missions.md, with nothing but its pair of files and its line.
 
 namespace swarmsmith {
 namespace {
-
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 FileText mission_with(const std::string& score) {
   return {.mission = "name = \"together\"\nscore = { " + score + " }\n"};

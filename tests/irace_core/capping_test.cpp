@@ -1,18 +1,14 @@
 #include "irace_core/internal/capping.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <limits>
 
 #include "irace_core/internal/race.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::irace {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Key;
 
 constexpr double kRejects = std::numeric_limits<double>::infinity();

@@ -1,12 +1,9 @@
 #include "benchmarks/colony/colony.h"
 
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <iterator>
-
 #include "irace_core/files/parameter_file.h"
 #include "tests/irace_core/golden.h"
+#include "tests/support/checks.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
@@ -52,13 +49,11 @@ TEST(Colony, IsTheFormulaThatRsIraceWasRunOn) {
 
 /// The parameter file that R's irace reads.
 TEST(Colony, SearchesTheSpaceOfItsParameterFile) {
-  std::ifstream stream(std::string(SWARMSMITH_SOURCE_DIR) +
-                       "/benchmarks/data/colony_parameters.txt");
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  const auto file = parse_parameter_file({.parameters = {text, "colony_parameters.txt"}});
-  ASSERT_TRUE(file) << to_string(file.error());
+  const std::string text =
+      whole_file(SWARMSMITH_SOURCE_DIR "/benchmarks/data/colony_parameters.txt");
+  const auto file = value_of(parse_parameter_file({.parameters = {text, "colony_parameters.txt"}}));
   EXPECT_EQ(print_parameter_file(colony::space()).value(),
-            print_parameter_file(file->space).value());
+            print_parameter_file(file.space).value());
 }
 
 }  // namespace

@@ -1,17 +1,13 @@
 #include "irace_core/internal/elimination.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include "irace_core/internal/agreement.h"
 #include "irace_core/internal/ranking.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::irace {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 RankTable table_of(const std::vector<std::vector<double>>& rows) {
   RankTable table(rows.front().size());

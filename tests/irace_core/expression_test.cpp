@@ -1,18 +1,16 @@
 #include "irace_core/expression.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <stdexcept>
 
 #include "tests/irace_core/spaces.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using namespace swarmsmith::testing;
 using enum Operation;
-using ::testing::ElementsAre;
 
 /// The value of an expression without parameters.
 Scalar value(const Expression& expression) {

@@ -1,15 +1,13 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <set>
 
 #include "tests/irace_core/random_designs.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using namespace swarmsmith::testing;
-using ::testing::HasSubstr;
 
 ParameterSpace space_of_four() {
   return space_of({make_categorical("kind", {"a", "b", "c"}), make_real("x", 0, 10),

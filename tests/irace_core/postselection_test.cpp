@@ -1,13 +1,12 @@
 #include "irace_core/internal/postselection.h"
 
-#include <gmock/gmock.h>
-
 #include <limits>
 #include <map>
 #include <set>
 
 #include "tests/irace_core/costs.h"
 #include "tests/irace_core/spaces.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
@@ -17,7 +16,6 @@ using namespace swarmsmith::testing;
 using irace::choose_for_postselection;
 using irace::largest_set_that_fits;
 using irace::PostselectionCandidate;
-using ::testing::IsEmpty;
 using Positions = std::vector<std::size_t>;
 
 std::vector<PostselectionCandidate> missing(const std::vector<std::int64_t>& counts) {
@@ -204,7 +202,7 @@ TEST(PostselectionRace, IsOffWithAWarningWithoutElitism) {
   scenario.elitist = false;
   auto race = IteratedRace::start(small_space(), scenario).value();
   const auto events = run_to_end(race, synthetic_cost);
-  EXPECT_THAT(only<RaceWarning>(events).front().text, ::testing::HasSubstr("post-selection"));
+  EXPECT_THAT(only<RaceWarning>(events).front().text, HasSubstr("post-selection"));
   for (const auto& started : only<IterationStarted>(events))
     EXPECT_FALSE(started.postselection);
 }

@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <limits>
 
@@ -7,14 +5,13 @@
 #include "irace_core/internal/race.h"
 #include "irace_core/internal/ranking.h"
 #include "tests/irace_core/costs.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::irace {
 namespace {
 
 using ::testing::DoubleNear;
 using ::testing::Each;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using ::testing::Key;
 
 constexpr double kRejects = std::numeric_limits<double>::infinity();
@@ -42,6 +39,12 @@ void answer(Race& race, Cost cost) {
                          static_cast<double>(race.pair_of(run.task))));
   }
   race.tell(testing::measured(costs));
+}
+
+/// Each of four is the best on every fourth pair.
+void run_to_the_end(Race& race) {
+  while (!race.finished())
+    answer(race, [](const RaceRun&, double id, double pair) { return std::fmod(id + pair, 4); });
 }
 
 TEST(TTest, AdjustsForTheNumberOfTests) {
@@ -109,9 +112,7 @@ TEST(NonElitistRace, ProtectsNobodyAndHasNoLimit) {
   settings.elitist = false;
   settings.elitist_limit = 1;
   Race race(settings, newcomers(4));
-  while (!race.finished()) {
-    answer(race, [](const RaceRun&, double id, double pair) { return std::fmod(id + pair, 4); });
-  }
+  run_to_the_end(race);
   EXPECT_EQ(race.stop_reason(), "no pairs left");
   EXPECT_EQ(race.used(), 48);
 }
@@ -123,9 +124,7 @@ TEST(NonElitistRace, StopsBeforeATestThatItCannotPay) {
   settings.pairs_between_tests = 2;
   settings.max_experiments = 31;
   Race race(settings, newcomers(4));
-  while (!race.finished()) {
-    answer(race, [](const RaceRun&, double id, double pair) { return std::fmod(id + pair, 4); });
-  }
+  run_to_the_end(race);
   EXPECT_EQ(race.used(), 24);  // after six pairs two more would make 32
 }
 
@@ -208,9 +207,7 @@ TEST(Race, RunsBlocksBetweenTests) {
   settings.elitist_limit = 1;
   Race race(settings, newcomers(4));
   EXPECT_EQ(race.wanted().size(), 24U);
-  while (!race.finished()) {
-    answer(race, [](const RaceRun&, double id, double pair) { return std::fmod(id + pair, 4); });
-  }
+  run_to_the_end(race);
   EXPECT_EQ(race.used(), 48);
 }
 

@@ -1,7 +1,6 @@
 #include "irace_core/internal/race.h"
 #include "tests/irace_core/costs.h"
-
-#include <gmock/gmock.h>
+#include "tests/support/checks.h"
 
 #include <cmath>
 #include <limits>
@@ -9,8 +8,6 @@
 namespace swarmsmith::irace {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using ::testing::Key;
 
 constexpr double kRejects = std::numeric_limits<double>::infinity();

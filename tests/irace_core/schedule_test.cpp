@@ -1,19 +1,23 @@
 #include "irace_core/internal/schedule.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <functional>
 #include <string>
 
+#include "tests/support/checks.h"
+
 namespace swarmsmith::irace {
 namespace {
-
-using ::testing::HasSubstr;
 
 std::string reason(const std::variant<RacePlan, NoMoreRaces>& next) {
   const auto* end = std::get_if<NoMoreRaces>(&next);
   return end == nullptr ? "a race" : end->reason;
+}
+
+Scenario with_budget(std::int64_t experiments) {
+  Scenario scenario;
+  scenario.max_experiments = experiments;
+  return scenario;
 }
 
 TEST(Schedule, CountsWithTheLogarithmOfTheParameters) {
@@ -24,8 +28,7 @@ TEST(Schedule, CountsWithTheLogarithmOfTheParameters) {
 }
 
 TEST(Schedule, CapsTheFirstRaceOfAHundredThousand) {
-  Scenario scenario;
-  scenario.max_experiments = 100'000;
+  Scenario scenario = with_budget(100'000);
   Schedule schedule(scenario, 149);
   const auto plan = std::get<RacePlan>(schedule.next(100'000, 0, 0));
   EXPECT_EQ(plan.budget, 11'111);
@@ -35,16 +38,14 @@ TEST(Schedule, CapsTheFirstRaceOfAHundredThousand) {
 }
 
 TEST(Schedule, RaisesMuToTheFirstTest) {
-  Scenario scenario;
-  scenario.max_experiments = 10'000;
+  Scenario scenario = with_budget(10'000);
   scenario.first_test = 10;
   Schedule schedule(scenario, 4);
   EXPECT_EQ(std::get<RacePlan>(schedule.next(10'000, 0, 0)).configurations, 2500 / 11);
 }
 
 TEST(Schedule, GivesUpNewInstancesWhenShort) {
-  Scenario scenario;
-  scenario.max_experiments = 500;
+  Scenario scenario = with_budget(500);
   scenario.min_nb_survival = 3;
   Schedule schedule(scenario, 11);
   (void)schedule.next(500, 0, 0);
@@ -57,8 +58,7 @@ TEST(Schedule, GivesUpNewInstancesWhenShort) {
 }
 
 TEST(Schedule, SkipsIterationsUntilTheConfigurationsAskedForFit) {
-  Scenario scenario;
-  scenario.max_experiments = 1000;
+  Scenario scenario = with_budget(1000);
   scenario.nb_configurations = 60;
   Schedule schedule(scenario, 4);
   // A quarter of the budget buys 41, a third 47, a half 62.
@@ -70,15 +70,13 @@ TEST(Schedule, SkipsIterationsUntilTheConfigurationsAskedForFit) {
 }
 
 TEST(Schedule, EndsWithTheBudget) {
-  Scenario scenario;
-  scenario.max_experiments = 1000;
+  Scenario scenario = with_budget(1000);
   Schedule schedule(scenario, 4);
   EXPECT_THAT(reason(schedule.next(0, 4, 10)), HasSubstr("exhausted"));
 }
 
 TEST(Schedule, AddsIterationsWhileBudgetIsLeft) {
-  Scenario scenario;
-  scenario.max_experiments = 1000;
+  Scenario scenario = with_budget(1000);
   Schedule schedule(scenario, 1);  // two iterations
   (void)schedule.next(1000, 0, 0);
   (void)schedule.next(900, 2, 6);
@@ -89,16 +87,14 @@ TEST(Schedule, AddsIterationsWhileBudgetIsLeft) {
 
 TEST(Schedule, StopsWhereConfigurationsAskedForNeverFit) {
   // Each iteration has the same budget, so that waiting for a later one does not help.
-  Scenario scenario;
-  scenario.max_experiments = 1000;
+  Scenario scenario = with_budget(1000);
   scenario.nb_experiments_per_iteration = 50;
   scenario.nb_configurations = 60;
   EXPECT_THAT(reason(Schedule(scenario, 4).next(1000, 0, 0)), HasSubstr("asked for"));
 }
 
 TEST(Schedule, BeginsNoRaceThatWouldSpendMoreThanIsLeft) {
-  Scenario scenario;
-  scenario.max_experiments = 1000;
+  Scenario scenario = with_budget(1000);
   scenario.nb_experiments_per_iteration = 500;
   scenario.elitist = false;
   // 500 / 6 = 83 configurations need 415 up to the first test.
@@ -123,8 +119,7 @@ TEST(Schedule, ShrinksToTheTimeThatIsLeft) {
 }
 
 TEST(Schedule, HasNoNewPairsWithoutUnusedOnes) {
-  Scenario scenario;
-  scenario.max_experiments = 1000;
+  Scenario scenario = with_budget(1000);
   scenario.elitist_new_instances = 2;
   Schedule schedule(scenario, 4);
   (void)schedule.next(1000, 0, 0);
@@ -137,8 +132,7 @@ TEST(Schedule, HasNoNewPairsWithoutUnusedOnes) {
 }
 
 TEST(Scenario, IsCheckedOptionByOption) {
-  Scenario scenario;
-  scenario.max_experiments = 100;
+  Scenario scenario = with_budget(100);
   EXPECT_TRUE(check(scenario));
   scenario.each_test = 2;
   EXPECT_EQ(check(scenario).error().where, "first_test");
@@ -153,8 +147,7 @@ TEST(Scenario, IsCheckedOptionByOption) {
 
 /// The option that is complained of; "" for none.
 std::string complaint(const std::function<void(Scenario&)>& change) {
-  Scenario scenario;
-  scenario.max_experiments = 1000;
+  Scenario scenario = with_budget(1000);
   scenario.n_instances = 10;
   change(scenario);
   const auto checked = check(scenario);

@@ -1,12 +1,11 @@
 #include "irace_core/internal/time_budget.h"
 
-#include <gmock/gmock.h>
-
 #include <limits>
 #include <set>
 
 #include "tests/irace_core/costs.h"
 #include "tests/irace_core/spaces.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
@@ -14,7 +13,6 @@ namespace {
 
 using namespace swarmsmith::testing;
 using irace::TimeBudget;
-using ::testing::HasSubstr;
 
 Scenario timed_scenario(double max_time) {
   Scenario scenario;
@@ -243,9 +241,9 @@ TEST(TimedRace, LeavesOutWhatTheEstimateRejects) {
   race.tell(answers);
   const TimedRun run = run_timed(race);
   for (const IterationStarted& started : not_empty(only<IterationStarted>(run.events)))
-    EXPECT_THAT(started.elites, ::testing::Not(::testing::Contains(2)));
+    EXPECT_THAT(started.elites, Not(Contains(2)));
   for (const RaceStep& step : not_empty(only<RaceStep>(run.events)))
-    EXPECT_THAT(step.evaluated, ::testing::Not(::testing::Contains(::testing::Key(2))));
+    EXPECT_THAT(step.evaluated, Not(Contains(::testing::Key(2))));
 }
 
 TEST(TimedRace, AsksTheEvaluatorInTheEstimateToo) {

@@ -13,7 +13,7 @@ import unittest
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 sys.path.insert(0, str(SOURCE / "tests" / "end_to_end"))
-from programs import ProgramTest  # noqa: E402
+from programs import ProgramTest, ended_well  # noqa: E402
 
 
 # A query's answer, and what a tuner found and tried.
@@ -52,8 +52,7 @@ class Snippets(ProgramTest):
         second = text[begin:end].replace("aggregation", "color_selection")
         self.file.write_text(text[:end] + second + text[end:])
         self.store = self.folder / "campaign.db"
-        done = self.run_campaign(self.store, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(self.store, "--workers", "2"))
 
     def run_blocks(self, language, words, name):
         blocks = snippets(language)

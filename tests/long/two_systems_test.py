@@ -12,7 +12,7 @@ SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 sys.path.insert(0, str(SOURCE / "tests/end_to_end"))
 import robots  # noqa: E402
 from bundle_test import serve  # noqa: E402
-from programs import BIN, PATIENCE, SWARMSMITH, ProgramTest, call, used, wait_for  # noqa: E402
+from programs import BIN, PATIENCE, SWARMSMITH, ProgramTest, call, ended_well, used, wait_for  # noqa: E402
 
 ROOT = os.environ.get("SWARMSMITH_OTHER_ROOT")
 
@@ -61,9 +61,8 @@ class TwoSystems(ProgramTest):
                 file = SOURCE / f"examples/{name}.toml"
                 ours, theirs = self.folder / f"{name}-ours.db", self.folder / f"{name}-theirs.db"
                 for run, store in ((call, ours), (self.call_other, theirs)):
-                    done = run("run", file, "--store", store, "--no-dashboard", "--workers", "2", "--seed", "77",
-                               "--budget", "1500", timeout=900)
-                    self.assertEqual(done.returncode, 0, done.stderr)
+                    ended_well(run("run", file, "--store", store, "--no-dashboard", "--workers", "2", "--seed", "77",
+                                   "--budget", "1500", timeout=900))
                 self.assertEqual(self.digest(ours), self.digest(theirs))
                 self.assertEqual(self.both("digest", ours), self.both("digest", theirs))
 
@@ -80,8 +79,7 @@ class TwoSystems(ProgramTest):
             self.addCleanup(self._end, process)
             wait_for(lambda: used(moved) > before + 200 or process.poll() is not None, f"turn {turn}")
             self._end(process)
-        last = self.call_other("run", self.file, "--store", moved, "--no-dashboard", "--workers", "2")
-        self.assertEqual(last.returncode, 0, last.stderr)
+        ended_well(self.call_other("run", self.file, "--store", moved, "--no-dashboard", "--workers", "2"))
         self.assertEqual(self.digest(moved), self.digest(whole))
         self.assert_clean(moved)
 

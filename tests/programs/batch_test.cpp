@@ -1,11 +1,10 @@
 #include "programs/batch.h"
 
-#include <gtest/gtest.h>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
 
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -59,15 +58,10 @@ class Queues : public ::testing::Test {
   }
   void TearDown() override { setenv("PATH", before.c_str(), 1); }
   void command(const std::string& name, const std::string& text) {
-    std::ofstream(folder / name) << "#!/bin/sh\ncd " << folder.path().string() << "\necho " << name
-                                 << " \"$@\" >> log\n"
-                                 << text;
-    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
+    write_script(folder / name,
+                 "cd " + folder.path().string() + "\necho " + name + " \"$@\" >> log\n" + text);
   }
-  std::string log() const {
-    std::ifstream in(folder / "log");
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string log() const { return whole_file(folder / "log"); }
 
   TemporaryFolder folder;
   std::string before;
@@ -97,9 +91,8 @@ TEST_F(Queues, LoseTheJobsOfAnInterruptedWorker) {
 TEST_F(Queues, ThatNeverAnswerAreAnError) {
   command("squeue", "echo no controller >&2; exit 1\n");
   const Interrupt never;
-  const auto waited = wait_for_job(BatchMode::Slurm, "77", milliseconds(0), never);
-  ASSERT_FALSE(waited);
-  EXPECT_NE(waited.error().message.find("no controller"), std::string::npos);
+  EXPECT_THAT(why_not(wait_for_job(BatchMode::Slurm, "77", milliseconds(0), never)).message,
+              HasSubstr("no controller"));
 }
 
 }  // namespace

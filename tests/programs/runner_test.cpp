@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "tests/support/temporary_folder.h"
 
@@ -19,8 +18,7 @@ bool mentions(const std::string& text, const std::string& part) {
 class Runners : public ::testing::Test {
  protected:
   void script(const std::string& text, const std::string& name = "target-runner") {
-    std::ofstream(folder / name) << "#!/bin/sh\n" << text;
-    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
+    write_script(folder / name, text);
   }
   Target target() const {
     Target made;
@@ -31,10 +29,7 @@ class Runners : public ::testing::Test {
   auto run(const Target& made, bool shell = true) {
     return TargetRunner(made, {.shell = shell, .term_grace = milliseconds(50)}, never).run(call);
   }
-  std::string log() const {
-    std::ifstream in(folder / "log");
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string log() const { return whole_file(folder / "log"); }
 
   TemporaryFolder folder;
   Interrupt never;

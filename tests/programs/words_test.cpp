@@ -1,10 +1,9 @@
 #include "programs/words.h"
 
-#include <gtest/gtest.h>
-
 #include "base/process/interrupt.h"
 #include "base/process/process.h"
 #include "base/rng.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -85,12 +84,11 @@ TEST(Words, AreThoseOfARealShell) {
       line += "[" + word + "]";
     expected.push_back(line);
   }
-  const auto end = run_process({.words = {"/bin/sh", "-c", script}}, never);
-  ASSERT_TRUE(end);
+  const auto end = value_of(run_process({.words = {"/bin/sh", "-c", script}}, never));
   std::string wanted;
   for (const std::string& line : expected)
     wanted += line + "\n";
-  EXPECT_EQ(end->output.text, wanted);
+  EXPECT_EQ(end.output.text, wanted);
 }
 
 }  // namespace

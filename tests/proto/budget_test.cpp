@@ -1,7 +1,5 @@
 // What a server's socket holds of others.
 
-#include <gtest/gtest.h>
-
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -15,6 +13,7 @@
 
 #include "proto/network.h"
 #include "proto/socket.h"
+#include "tests/support/checks.h"
 #include "tests/support/eventually.h"
 
 namespace swarmsmith {
@@ -103,9 +102,8 @@ std::string part_of(std::size_t size) {
 class Budgets : public ::testing::Test {
  protected:
   void listen(const SocketOptions& options = {}) {
-    auto bound = ServerSocket::bind("tcp://127.0.0.1:*", options);
-    ASSERT_TRUE(bound);
-    server = std::move(*bound);
+    auto bound = value_of(ServerSocket::bind("tcp://127.0.0.1:*", options));
+    server = std::move(bound);
   }
   bool eventually(const std::function<bool()>& holds) {
     return swarmsmith::eventually(holds, [&] { server->wait(wakeup, milliseconds(2)); });

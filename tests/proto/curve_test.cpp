@@ -1,7 +1,6 @@
 #include "proto/curve.h"
 
 #include <arpa/inet.h>
-#include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "proto/socket.h"
+#include "tests/support/checks.h"
 #include "tests/support/eventually.h"
 
 namespace swarmsmith {
@@ -38,13 +38,12 @@ class LockedDoor : public ::testing::Test {
  protected:
   void SetUp() override {
     options.handshake_timeout = milliseconds(300);
-    auto bound = ServerSocket::bind(
+    auto bound = value_of(ServerSocket::bind(
         "tcp://127.0.0.1:*", options,
         ServerKeys{.secret_key = server_pair.secret_key,
                    .clients = {client(worker, Role::Worker), client(reader, Role::Reader),
-                               client(old, Role::Worker, true)}});
-    ASSERT_TRUE(bound);
-    server = std::move(*bound);
+                               client(old, Role::Worker, true)}}));
+    server = std::move(bound);
     honest = connect(worker);
     honest->send("hello");
     ASSERT_EQ(next_at_server(), "hello");
@@ -229,22 +228,21 @@ TEST_F(LockedDoor, SeesAnotherRoleAtTheNextWord) {
 TEST(OpenDoor, ClosesConnectionsBeyondItsLimit) {
   SocketOptions options;
   options.max_connections = 2;
-  auto server = ServerSocket::bind("tcp://127.0.0.1:*", options);
-  ASSERT_TRUE(server);
+  auto server = value_of(ServerSocket::bind("tcp://127.0.0.1:*", options));
   std::vector<std::unique_ptr<ClientSocket>> clients;
   for (int i = 0; i < 3; ++i) {
-    clients.push_back(std::make_unique<ClientSocket>((*server)->endpoint()));
+    clients.push_back(std::make_unique<ClientSocket>(server->endpoint()));
     clients.back()->connect();
   }
   Wakeup wakeup;
   int lost = 0;
   for (int i = 0; i < 5000 && lost == 0; ++i) {
-    (*server)->wait(wakeup, milliseconds(2));
+    server->wait(wakeup, milliseconds(2));
     for (const auto& client : clients)
       lost += client->lost() ? 1 : 0;
   }
   EXPECT_EQ(lost, 1);
-  EXPECT_EQ((*server)->refusals().counts.at("too many connections"), 1U);
+  EXPECT_EQ(server->refusals().counts.at("too many connections"), 1U);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "proto/socket.h"
 
-#include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -9,6 +8,7 @@
 #include <thread>
 
 #include "proto/wire.h"
+#include "tests/support/checks.h"
 #include "tests/support/eventually.h"
 
 namespace swarmsmith {
@@ -19,9 +19,8 @@ using std::chrono::milliseconds;
 class Sockets : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto bound = ServerSocket::bind("tcp://127.0.0.1:*");
-    ASSERT_TRUE(bound);
-    server = std::move(*bound);
+    auto bound = value_of(ServerSocket::bind("tcp://127.0.0.1:*"));
+    server = std::move(bound);
     client = std::make_unique<ClientSocket>(server->endpoint());
     client->connect();
   }
@@ -106,9 +105,7 @@ TEST_F(Sockets, DropAnOverLongMessageAndItsConnectionOnly) {
 }
 
 TEST_F(Sockets, RefuseAnAddressThatIsTaken) {
-  const auto second = ServerSocket::bind(server->endpoint());
-  ASSERT_FALSE(second);
-  EXPECT_EQ(second.error().kind, ErrorKind::Conflict);
+  EXPECT_EQ(why_not(ServerSocket::bind(server->endpoint())).kind, ErrorKind::Conflict);
 }
 
 /// The socket that listens, and where a client finds it.
@@ -132,9 +129,8 @@ bool has_ipv6() {
 TEST_P(Addresses, OfBothFamiliesCarryFrames) {
   const bool is_six = std::string(GetParam().bind) + GetParam().connect != "127.0.0.1127.0.0.1";
   if (is_six && !has_ipv6()) GTEST_SKIP() << "this host has no IPv6";
-  const auto server = ServerSocket::bind(std::string("tcp://") + GetParam().bind + ":*");
-  ASSERT_TRUE(server) << to_string(server.error());
-  const int port = address_of((*server)->endpoint())->port;
+  const auto server = value_of(ServerSocket::bind(std::string("tcp://") + GetParam().bind + ":*"));
+  const int port = address_of(server->endpoint())->port;
   ClientSocket client(std::string("tcp://") + GetParam().connect + ":" + std::to_string(port));
   const Wakeup wakeup;
   ServerSocket::Received received;
@@ -144,8 +140,8 @@ TEST_P(Addresses, OfBothFamiliesCarryFrames) {
   client.connect();
   client.send("there");
   while (!came && std::chrono::steady_clock::now() < deadline) {
-    (*server)->wait(wakeup, milliseconds(10));
-    came = (*server)->receive(received);
+    server->wait(wakeup, milliseconds(10));
+    came = server->receive(received);
     if (came || !client.lost()) continue;
     client.connect();
     client.send("there");
@@ -157,7 +153,7 @@ TEST_P(Addresses, OfBothFamiliesCarryFrames) {
     EXPECT_EQ(received.address, address_of("tcp://" + host + ":1")->host)
         << "an IPv4 one as itself";
   }
-  EXPECT_EQ((*server)->send(received.peer, "back"), SendStatus::Sent);
+  EXPECT_EQ(server->send(received.peer, "back"), SendStatus::Sent);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfThisHost, Addresses,
@@ -171,11 +167,9 @@ TEST(SocketAddresses, ThatCannotBeUsedAreNamed) {
   ClientSocket client("tcp://no-such-host.invalid:5555");
   client.connect();
   EXPECT_TRUE(client.lost());
-  EXPECT_NE(client.trouble().find("the name `no-such-host.invalid`"), std::string::npos)
-      << client.trouble();
-  const auto server = ServerSocket::bind("tcp://[fe80::1]:*");
-  ASSERT_FALSE(server);
-  EXPECT_NE(server.error().message.find("%eth0"), std::string::npos) << server.error().message;
+  EXPECT_THAT(client.trouble(), HasSubstr("the name `no-such-host.invalid`"));
+  const Error server = why_not(ServerSocket::bind("tcp://[fe80::1]:*"));
+  EXPECT_THAT(server.message, HasSubstr("%eth0"));
 }
 
 /// Another user of this host: the kernel says who connects.
@@ -207,7 +201,7 @@ TEST(SocketUsers, OthersAreKeptOut) {
   EXPECT_EQ(status, 0);
   const auto refusals = server->refusals();
   EXPECT_EQ(refusals.counts.at("another user"), 1U);
-  EXPECT_NE(refusals.last_from.at("another user").find("user "), std::string::npos);
+  EXPECT_THAT(refusals.last_from.at("another user"), HasSubstr("user "));
   // Its own user comes in.
   ClientSocket own(server->endpoint());
   own.connect();

@@ -7,7 +7,7 @@ import unittest
 from crafted_stores import CRAFTED, craft
 from ends import end_of, what_is_wrong_with
 from every_command import invocations
-from rig import LONG, SANITIZED, FaultTest, call
+from rig import LONG, SANITIZED, FaultTest, call, ended_well
 
 #: MiB of one process, and seconds of processor time.
 MOST_MEMORY = 256
@@ -23,8 +23,7 @@ class Crafted(FaultTest):
     def setUp(self):
         super().setUp()
         self.kept = self.folder / "kept.db"
-        done = call("run", self.file, "--store", self.kept, "--no-dashboard", "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("run", self.file, "--store", self.kept, "--no-dashboard", "--workers", "2"))
 
     def try_all(self, names, wanted=None):
         wrong, tried, most = [], 0, (0, 0)

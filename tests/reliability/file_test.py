@@ -8,7 +8,7 @@ import sqlite3
 import unittest
 
 from beside import Beside
-from rig import BIN, SWARMSMITH, FaultTest, call, rows, stored, wait_for
+from rig import BIN, SWARMSMITH, FaultTest, call, ended_well, rows, stored, wait_for
 
 PRELOAD = str(BIN / "faulty_calls.so")
 REFUSED = 3  # exit code: the store cannot be used
@@ -147,10 +147,8 @@ class Names(FaultTest):
         other.hardlink_to(self.store)
         self.assert_refused(other, "another process is writing this store", f"pid={serve.pid}")
         other.unlink()
-        done = call("pause", link)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        done = call("resume", link)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("pause", link))
+        ended_well(call("resume", link))
         self.held = None
         self.finish(serve, [worker])
 
@@ -297,8 +295,7 @@ class KilledCopies(FaultTest):
                     self.assertFalse(name.exists(), "half of a store has its name")
                     self.count(f"{command[0]} killed")
             self.assertTrue(list(folder.iterdir()), "nothing was left: the test shows nothing")
-            done = call(*command)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            ended_well(call(*command))
             self.assertEqual([file.name for file in folder.iterdir()], [name.name])
             shutil.rmtree(folder)
             folder.mkdir()

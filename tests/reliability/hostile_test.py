@@ -10,7 +10,7 @@ import re
 import time
 import unittest
 
-from rig import LONG, PATIENCE, FaultTest, call, rows, stored, wait_for
+from rig import LONG, PATIENCE, FaultTest, call, ended_well, rows, stored, wait_for
 from mixes import LIES, MIXES
 from programs import BIN
 
@@ -108,8 +108,7 @@ class Hostile(FaultTest):
     def assert_right(self, coordinator):
         """The answer, and every score in the store is what this build gives."""
         self.finish(coordinator, self.workers)
-        done = call("verify", self.store, "--sample", 2000 if LONG else 500, "--seed", 1)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        ended_well(call("verify", self.store, "--sample", 2000 if LONG else 500, "--seed", 1))
 
     def assert_says_why(self, coordinator):
         self.assertRegex(coordinator.log(), "(score|store|worker)[^\n]*(wrong|believed|trust|new store)",

@@ -7,8 +7,8 @@ import subprocess
 import unittest
 
 from beside import Beside, Onlookers
-from rig import (BIN, LONG, SWARMSMITH, FaultTest, calls_in, children_of, events, rows, send,
-                 stored, wait_for)
+from rig import (BIN, LONG, SWARMSMITH, FaultTest, calls_in, children_of, ended_well, events, rows,
+                 send, stored, wait_for)
 
 PRELOAD = str(BIN / "faulty_calls.so")
 
@@ -188,8 +188,7 @@ class KillBeside(Beside):
     def pause_or_resume(self):
         """Killed right after it has confirmed."""
         for kind in ("pause", "resume"):
-            done = self.ask(kind, "d1")
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            ended_well(self.ask(kind, "d1"))
             self.kill_coordinator()
 
 
@@ -210,8 +209,7 @@ class KillAfterCommands(Beside):
         worker = self.worker(proxy.address, slots=2)
         for kind, words in (("extend", ("d1", "--budget", "500")), ("cancel", ("d2",))):
             self.wait_stored(min(stored(self.store) + 200, 0.9 * self.budget))
-            done = self.ask(kind, *words)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            ended_well(self.ask(kind, *words))
             serve.kill()
             self.count("coordinator killed")
             self.assert_promises_are_kept()

@@ -3,7 +3,7 @@ import signal
 import subprocess
 import unittest
 
-from rig import FaultTest, call, need, stored, wait_for
+from rig import FaultTest, call, ended_well, need, stored, wait_for
 
 REFUSED = 3  # exit code: the store cannot be used
 
@@ -15,9 +15,8 @@ class Others(FaultTest):
     def sqlite(self, store, sql):
         """As a person types it."""
         need("sqlite3", "sqlite3")
-        done = subprocess.run(["sqlite3", "-cmd", ".timeout 20000", store, sql], capture_output=True, text=True,
-                              timeout=60)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(subprocess.run(["sqlite3", "-cmd", ".timeout 20000", store, sql], capture_output=True, text=True,
+                                         timeout=60))
         return done.stdout
 
     def assert_stopped(self, run, *words):
@@ -55,14 +54,12 @@ class Others(FaultTest):
         self.assertEqual(call("digest", self.store).returncode, REFUSED)
         self.assertEqual(call("verify", self.store).returncode, REFUSED)
         recovered = self.folder / "recovered.db"
-        done = call("recover", self.store, "-o", recovered)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("recover", self.store, "-o", recovered))
         self.finish_as(recovered)
 
     def go_on_from_a_backup(self):
         copy = self.folder / "copy.db"
-        done = call("backup", self.store, copy)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("backup", self.store, copy))
         self.finish_as(copy)
 
     def finish_as(self, store):
@@ -85,8 +82,7 @@ class Others(FaultTest):
                 self.assertEqual(done.returncode, REFUSED, done.stdout + done.stderr)
                 self.assertIn("trigger negate", done.stderr)
                 self.assertIn("view v_designs (another text)", done.stderr)
-        done = call("ls", "designs", self.store, timeout=20)  # our view answers, and theirs never would
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("ls", "designs", self.store, timeout=20))  # our view answers, and theirs never would
         self.assertIn("aggregation", done.stdout)
         self.go_on_from_a_backup()
 

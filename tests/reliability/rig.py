@@ -18,8 +18,8 @@ import subprocess
 import tempfile
 import unittest
 
-from programs import (BIN, PATIENCE, SWARMSMITH, call, campaign_text, children_of, free_ports, send,  # noqa: F401
-                      wait_for)
+from programs import (BIN, PATIENCE, SWARMSMITH, call, campaign_text, children_of, ended_well, free_ports,  # noqa: F401
+                      send, wait_for)
 
 WORKER = str(BIN / "swarmsmith-worker")
 LONG = os.environ.get("SWARMSMITH_LONG") == "1"
@@ -194,8 +194,7 @@ class FaultTest(unittest.TestCase):
         return it
 
     def keygen(self, folder, *arguments):
-        done = call("keygen", folder, *arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("keygen", folder, *arguments))
         return folder
 
     def run_local(self, *arguments, env=None, prefix=()):
@@ -243,8 +242,7 @@ class FaultTest(unittest.TestCase):
     def undisturbed(self, store):
         file = store.with_suffix(".toml")
         file.write_text(self.campaign_text())
-        done = call("run", file, "--store", store, "--workers", "1", "--no-dashboard")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("run", file, "--store", store, "--workers", "1", "--no-dashboard"))
         self.assert_clean(store)
         return store
 
@@ -253,13 +251,11 @@ class FaultTest(unittest.TestCase):
         return self.digest(self.reference())
 
     def digest(self, store):
-        done = call("digest", store)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("digest", store))
         return done.stdout.strip()
 
     def assert_clean(self, store):
-        done = call("verify", store)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        ended_well(call("verify", store))
 
     def assert_none(self, numbers, *names):
         """None of these was counted."""
@@ -272,8 +268,7 @@ class FaultTest(unittest.TestCase):
 
     def command(self, name, *words):
         """Something of the coordinator, as a person does."""
-        done = call(name, self.store, *words)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        ended_well(call(name, self.store, *words))
 
     def finish(self, coordinator, workers=(), seconds=180):
         """The campaign ends by itself, once nothing holds it; its workers go home, and the answer is the usual one."""

@@ -1,22 +1,18 @@
 #pragma once
 
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "base/math.h"
 #include "base/rng.h"
 #include "sim/mission/mission.h"
 #include "sim/mission/polygon.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 
 /// The picture of examples/missions: 52 x 52 pixels, a yellow ring on grey.
 inline std::shared_ptr<const Picture> ring_picture() {
-  std::ifstream stream(SWARMSMITH_SOURCE_DIR "/examples/missions/ring.png", std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  return Picture::from_png(bytes.str()).value();
+  return Picture::from_png(whole_file(SWARMSMITH_SOURCE_DIR "/examples/missions/ring.png")).value();
 }
 
 inline Rgb random_color(Rng& rng) {

@@ -1,10 +1,10 @@
 #include "tests/sim/reference_run.h"
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <sstream>
-#include <stdexcept>
+
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
@@ -32,11 +32,7 @@ RecordedTick tick_of(const std::vector<std::string>& row) {
 }  // namespace
 
 std::string golden_text(const std::string& file) {
-  std::ifstream in(SWARMSMITH_TEST_DATA "/argos/" + file);
-  if (!in) throw std::runtime_error("no reference file " + file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  return whole_file(SWARMSMITH_TEST_DATA "/argos/" + file);
 }
 
 std::vector<std::vector<std::string>> golden_rows(const std::string& file) {

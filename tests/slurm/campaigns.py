@@ -9,7 +9,7 @@ sys.dont_write_bytecode = True
 
 import one_host
 from one_host import OneHostSlurm, wait_for
-from programs import PATIENCE, SWARMSMITH, ProgramTest, call, campaign_text, send
+from programs import PATIENCE, SWARMSMITH, ProgramTest, call, campaign_text, ended_well, send
 
 
 def cluster_text(budget, repetitions, duration_s, workers):
@@ -40,8 +40,7 @@ class SlurmTest(ProgramTest):
         # As a lab does it: keys, all interfaces, and a free port each time, which the coordinator's
         # file tells. A blank in every path of the batch script.
         self.keys = self.folder / "the keys"
-        done = call("keygen", self.keys)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("keygen", self.keys))
         self.slurm.environment["SWARMSMITH_KEYS"] = str(self.keys)
         self.store = self.folder / "a store.db"
 
@@ -51,8 +50,7 @@ class SlurmTest(ProgramTest):
     def expected(self):
         """Digest of the same campaign on this host alone."""
         local = self.folder / "local.db"
-        done = self.run_campaign(local, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(local, "--workers", "2"))
         return self.digest(local)
 
     def start_coordinator(self, *words):
@@ -76,8 +74,7 @@ class SlurmTest(ProgramTest):
         return json.loads(done.stdout)["rows"][0]["n"] if done.returncode == 0 else 0
 
     def query(self, store, sql):
-        done = call("query", "--store", store, "--json", sql)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = ended_well(call("query", "--store", store, "--json", sql))
         return json.loads(done.stdout)["rows"]
 
     def wait_for_stored(self, count, process, limit_s=120):

@@ -9,7 +9,7 @@ import subprocess
 import unittest
 
 import campaigns
-from campaigns import PATIENCE, SWARMSMITH, ProgramTest, call, send, wait_for
+from campaigns import PATIENCE, SWARMSMITH, ProgramTest, call, ended_well, send, wait_for
 import bundle_test
 import one_host_ssh
 
@@ -52,8 +52,7 @@ class SshTest(ProgramTest):
         self.store = self.folder / "ssh.db"
         self.said = self.folder / "said.txt"
         keys = self.folder / "keys"
-        done = call("keygen", keys)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(call("keygen", keys))
         self.environment = {**os.environ, "SWARMSMITH_WORKER": str(self.worker),
                             "SWARMSMITH_KEYS": str(keys)}
 
@@ -97,8 +96,7 @@ class SshTest(ProgramTest):
         self.wait_for_nobody()
         self.assert_clean(self.store)
         local = self.folder / "local.db"
-        done = self.run_campaign(local, "--workers", "2")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        ended_well(self.run_campaign(local, "--workers", "2"))
         self.assertEqual(self.digest(self.store), self.digest(local))
 
 

@@ -1,15 +1,12 @@
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
 using Cells = std::vector<std::string>;
 using IfMissing = StoreAtRest::IfMissing;
 
@@ -52,12 +49,11 @@ struct AtRestTest : testing::Test {
 
 TEST_F(AtRestTest, MakesAStoreOfItsOwnWithoutACampaignFile) {
   {
-    auto store = StoreAtRest::open(path_, IfMissing::Make);
-    ASSERT_TRUE(store) << to_string(store.error());
-    EXPECT_TRUE((*store)->is_new());
-    const auto added = (*store)->add(imported(1, 2.5));
+    auto store = value_of(StoreAtRest::open(path_, IfMissing::Make));
+    EXPECT_TRUE(store->is_new());
+    const auto added = store->add(imported(1, 2.5));
     ASSERT_TRUE(added) << to_string(added.error());
-    EXPECT_FALSE((*store)->is_new());
+    EXPECT_FALSE(store->is_new());
   }
   EXPECT_THAT(all("SELECT name, state FROM v_campaign_status"),
               ElementsAre(Cells{"from elsewhere", "imported"}));
@@ -71,38 +67,31 @@ TEST_F(AtRestTest, MakesAStoreOfItsOwnWithoutACampaignFile) {
 TEST_F(AtRestTest, LeavesNoFileWhereNothingWasAdded) {
   { ASSERT_TRUE(StoreAtRest::open(path_, IfMissing::Make)); }
   EXPECT_FALSE(std::filesystem::exists(path_));
-  const auto refused = StoreAtRest::open(path_, IfMissing::Refuse);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::NotFound);
+  EXPECT_EQ(why_not(StoreAtRest::open(path_, IfMissing::Refuse)).kind, ErrorKind::NotFound);
 }
 
 TEST_F(AtRestTest, TakesAllOfAnAdditionOrNothing) {
-  auto store = StoreAtRest::open(path_, IfMissing::Make);
-  ASSERT_TRUE(store);
-  ASSERT_TRUE((*store)->add(imported(1, 1)));
+  auto store = value_of(StoreAtRest::open(path_, IfMissing::Make));
+  ASSERT_TRUE(store->add(imported(1, 1)));
   Addition second = imported(3, 1);  // design 2 is not there
-  const auto refused = (*store)->add(second);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::Conflict);
+  EXPECT_EQ(why_not(store->add(second)).kind, ErrorKind::Conflict);
   second = imported(2, 1);
   // A row that no store takes: a design that is not there.
   second.rows.emplace_back(
       EvaluationRow{.key = {candidate_id({7}, 1), Purpose::Score, 1}, .source = "real"});
-  EXPECT_FALSE((*store)->add(second));
+  EXPECT_FALSE(store->add(second));
   EXPECT_THAT(all("SELECT count(*) FROM v_designs"), ElementsAre(Cells{"1"}));
-  EXPECT_THROW(static_cast<void>((*store)->add(imported(2, std::nan("")))), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(store->add(imported(2, std::nan("")))), std::invalid_argument);
 }
 
 TEST_F(AtRestTest, KeepsWhatIsThereUntilItIsRemoved) {
-  auto store = StoreAtRest::open(path_, IfMissing::Make);
-  ASSERT_TRUE(store);
-  ASSERT_TRUE((*store)->add(imported(1, 1)));
+  auto store = value_of(StoreAtRest::open(path_, IfMissing::Make));
+  ASSERT_TRUE(store->add(imported(1, 1)));
   const EvaluationRow other{
       .key = {candidate_id({1}, 1), Purpose::Score, 1}, .measured = {.score = 9}, .source = "real"};
-  ASSERT_TRUE((*store)->add({.campaign = {}, .designs = {}, .removed = {}, .rows = {other}}));
+  ASSERT_TRUE(store->add({.campaign = {}, .designs = {}, .removed = {}, .rows = {other}}));
   EXPECT_THAT(all("SELECT score FROM v_design_scores"), ElementsAre(Cells{"1"}));
-  ASSERT_TRUE(
-      (*store)->add({.campaign = {}, .designs = {}, .removed = {other.key}, .rows = {other}}));
+  ASSERT_TRUE(store->add({.campaign = {}, .designs = {}, .removed = {other.key}, .rows = {other}}));
   EXPECT_THAT(all("SELECT score FROM v_design_scores"), ElementsAre(Cells{"9"}));
 }
 
@@ -110,10 +99,9 @@ TEST_F(AtRestTest, StaysOutWhileACampaignWrites) {
   const SyntheticCampaign made = synthetic_campaign({.designs = 2, .iterations = 1});
   const auto campaign = Store::open(path_, made.campaign, made.designs);
   ASSERT_TRUE(campaign);
-  const auto refused = StoreAtRest::open(path_, IfMissing::Refuse);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::Conflict);
-  EXPECT_THAT(refused.error().message, HasSubstr("pid"));
+  const Error refused = why_not(StoreAtRest::open(path_, IfMissing::Refuse));
+  EXPECT_EQ(refused.kind, ErrorKind::Conflict);
+  EXPECT_THAT(refused.message, HasSubstr("pid"));
 }
 
 TEST_F(AtRestTest, TellsTheFlavoursOfAnOldStoresDesigns) {
@@ -129,18 +117,16 @@ TEST_F(AtRestTest, LeavesTheCampaignThatRunsThereAlone) {
   { ASSERT_TRUE(Store::open(path_, made.campaign, made.designs)); }
   const auto designs = static_cast<std::int64_t>(made.designs.size());
   {
-    auto store = StoreAtRest::open(path_, IfMissing::Refuse);
-    ASSERT_TRUE(store);
-    EXPECT_FALSE((*store)->is_new());
-    ASSERT_TRUE((*store)->add(imported(designs + 1, 1)));
+    auto store = value_of(StoreAtRest::open(path_, IfMissing::Refuse));
+    EXPECT_FALSE(store->is_new());
+    ASSERT_TRUE(store->add(imported(designs + 1, 1)));
   }
-  auto store = Store::open(path_, made.campaign, made.designs);
-  ASSERT_TRUE(store) << to_string(store.error());
-  EXPECT_EQ((*store)->design_states().size(), made.designs.size());
-  EXPECT_FALSE((*store)->finished());
-  (*store)->append({CampaignStateRow{.state = "finished"}});
-  (*store)->flush();
-  EXPECT_TRUE((*store)->finished());
+  auto store = value_of(Store::open(path_, made.campaign, made.designs));
+  EXPECT_EQ(store->design_states().size(), made.designs.size());
+  EXPECT_FALSE(store->finished());
+  store->append({CampaignStateRow{.state = "finished"}});
+  store->flush();
+  EXPECT_TRUE(store->finished());
   EXPECT_THAT(all("SELECT state FROM v_campaign_status ORDER BY state"),
               ElementsAre(Cells{"finished"}, Cells{"imported"}));
 }

@@ -2,19 +2,16 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gmock/gmock.h>
 #include <algorithm>
 #include <map>
 
 #include "base/rng.h"
 #include "storage/answer.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// One of them.
 std::string any(Rng& rng, const std::vector<std::string>& texts) {
@@ -125,12 +122,11 @@ TEST_F(CandidateCodeTest, EveryRowComesBackAsItWas) {
     ASSERT_EQ(cells.size(), rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       EXPECT_TRUE(same_answer(rows[i], read[i])) << describe(rows[i]) << "\n" << describe(read[i]);
-      EXPECT_THAT(cells[i], testing::ElementsAre(std::to_string(rows[i].id.value), rows[i].machine,
-                                                 rows[i].parameters, rows[i].modules,
-                                                 std::to_string(rows[i].iteration),
-                                                 std::to_string(rows[i].parent.value),
-                                                 std::to_string(rows[i].states),
-                                                 std::to_string(rows[i].transitions)));
+      EXPECT_THAT(cells[i],
+                  ElementsAre(std::to_string(rows[i].id.value), rows[i].machine, rows[i].parameters,
+                              rows[i].modules, std::to_string(rows[i].iteration),
+                              std::to_string(rows[i].parent.value), std::to_string(rows[i].states),
+                              std::to_string(rows[i].transitions)));
     }
   }
 }
@@ -243,7 +239,7 @@ TEST_F(CandidateCodeTest, APhraseThatIsMissingIsFoundAndNothingIsMadeUp) {
   write(candidates(4, 0));
   change("DELETE FROM phrase WHERE id = 3");
   const auto reader = open_reader(path);
-  EXPECT_THAT(reader->integrity(), testing::Contains(HasSubstr("phrases that do not exist")));
+  EXPECT_THAT(reader->integrity(), Contains(HasSubstr("phrases that do not exist")));
   EXPECT_THROW(candidates_in(*reader), StoreFailure);
 }
 
@@ -257,7 +253,7 @@ TEST_F(CandidateCodeTest, ACodeThatMakesMoreThanATextHasIsRefusedBeforeItIsMade)
   EXPECT_EQ(one("SELECT length(module_code) > 20000 FROM candidate WHERE id = 2"), "1");
   const auto reader = open_reader(path);
   EXPECT_THROW(candidates_in(*reader), StoreFailure);
-  EXPECT_THAT(reader->integrity(), testing::Contains(HasSubstr("more text")));
+  EXPECT_THAT(reader->integrity(), Contains(HasSubstr("more text")));
 }
 
 TEST_F(CandidateCodeTest, CodesThatMakeManyTimesTheFileAreRefused) {
@@ -275,7 +271,7 @@ TEST_F(CandidateCodeTest, ACodeThatIsNoneIsFound) {
   EXPECT_THAT(open_reader(path)->integrity(), IsEmpty());
   change("UPDATE candidate SET code = 'spoilt' WHERE id = 2");
   EXPECT_THROW(candidates_in(*open_reader(path)), StoreFailure);
-  EXPECT_THAT(open_reader(path)->integrity(), testing::Not(IsEmpty()));
+  EXPECT_THAT(open_reader(path)->integrity(), Not(IsEmpty()));
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "storage/internal/columns.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -9,13 +7,12 @@
 
 #include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
+#include "tests/support/checks.h"
 
 // The lists of columns against the tables that the scripts make, schema by schema.
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::IsEmpty;
 
 class Columns : public ::testing::TestWithParam<std::int64_t> {
  protected:

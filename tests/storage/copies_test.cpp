@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,14 +10,15 @@
 #include "storage/merge.h"
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 #include "tests/support/synthetic_real_run.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
 
 namespace fs = std::filesystem;
 using Cells = std::vector<std::string>;
-using testing::HasSubstr;
 
 const auto kUnwatched = [](std::int64_t, std::int64_t) {};
 
@@ -57,18 +57,13 @@ SyntheticCampaign campaign_of_all_kinds(std::uint64_t seed, std::int64_t designs
 }
 
 void write_store(const fs::path& path, const SyntheticCampaign& campaign) {
-  {
-    const auto store = open_store(path, campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
-  }
+  fill_store(path, campaign);
   const auto designs = static_cast<std::int64_t>(campaign.designs.size());
-  const auto store = StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse);
-  ASSERT_TRUE(store);
+  const auto store = value_of(StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse));
   for (std::int64_t run = 1; run <= designs; ++run) {
     const auto number = static_cast<std::uint64_t>(campaign.campaign.seed * 100 + run);
-    ASSERT_TRUE((*store)->add_real_run(synthetic_real_run(number, candidate_id({run}, 1), 5)));
-    ASSERT_TRUE((*store)->add_override({{run}, "DEGRADED", "ada", "x"}));
+    ASSERT_TRUE(store->add_real_run(synthetic_real_run(number, candidate_id({run}, 1), 5)));
+    ASSERT_TRUE(store->add_override({{run}, "DEGRADED", "ada", "x"}));
   }
 }
 
@@ -116,21 +111,17 @@ TEST_F(CopiesTest, ABackupHasNoSecretOfACampaignThatGoesOn) {
   EXPECT_EQ(store->keep_secret(secret), secret);
   const auto made = back_up(a, out, kUnwatched);
   ASSERT_TRUE(made) << to_string(made.error());
-  std::ifstream file(out, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  EXPECT_EQ(bytes.find(secret), std::string::npos);
+  EXPECT_THAT(whole_file(out), Not(HasSubstr(secret)));
   EXPECT_EQ(store->keep_secret("another"), secret) << "the campaign keeps its own";
 }
 
 TEST_F(CopiesTest, ABackupOverwritesNothingAndLeavesNothingBehind) {
   write_store(a, campaign_of_all_kinds(1, 1));
   std::ofstream(out) << "mine";
-  const auto refused = back_up(a, out, kUnwatched);
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("nothing is overwritten"));
+  EXPECT_THAT(complaint_of(back_up(a, out, kUnwatched)), HasSubstr("nothing is overwritten"));
   EXPECT_EQ(fs::file_size(out), 4U);
   EXPECT_FALSE(back_up(folder / "none.db", folder / "copy.db", kUnwatched));
-  EXPECT_THAT(files(), testing::Not(testing::Contains(HasSubstr(".part"))));
+  EXPECT_THAT(files(), Not(Contains(HasSubstr(".part"))));
 }
 
 TEST_F(CopiesTest, ABackupOfADamagedStoreIsRefusedWithAWayOut) {
@@ -141,10 +132,9 @@ TEST_F(CopiesTest, ABackupOfADamagedStoreIsRefusedWithAWayOut) {
     file.seekp(static_cast<std::streamoff>(size / 8192 / 2 * 8192));
     file << std::string(8192, 'x');
   }
-  const auto refused = back_up(a, out, kUnwatched);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::Corrupt);
-  EXPECT_THAT(refused.error().message, HasSubstr("swarmsmith recover"));
+  const Error refused = why_not(back_up(a, out, kUnwatched));
+  EXPECT_EQ(refused.kind, ErrorKind::Corrupt);
+  EXPECT_THAT(refused.message, HasSubstr("swarmsmith recover"));
   EXPECT_FALSE(fs::exists(out));
 }
 
@@ -152,13 +142,12 @@ struct OldStores : CopiesTest, testing::WithParamInterface<int> {};
 
 TEST_P(OldStores, ABackupMigratesTheCopyAndNotTheOriginal) {
   const std::string digest = open_reader(old_store(GetParam()))->digest();
-  const auto made = back_up(old_store(GetParam()), out, kUnwatched);
-  ASSERT_TRUE(made) << to_string(made.error());
-  EXPECT_EQ(made->migrated, GetParam());
-  EXPECT_EQ(made->digest, digest);
+  const auto made = value_of(back_up(old_store(GetParam()), out, kUnwatched));
+  EXPECT_EQ(made.migrated, GetParam());
+  EXPECT_EQ(made.digest, digest);
   const auto copy = open_reader(out);
   EXPECT_EQ(copy->digest(), digest);
-  EXPECT_EQ(copy->schema(), made->schema);
+  EXPECT_EQ(copy->schema(), made.schema);
   EXPECT_TRUE(copy->integrity().empty());
   EXPECT_EQ(cells_of(*copy, "SELECT campaign FROM v_designs").front(), Cells{"1"});
   EXPECT_EQ(open_reader(old_store(GetParam()))->schema(), GetParam());
@@ -197,13 +186,12 @@ struct MergeTest : CopiesTest {
 };
 
 TEST_F(MergeTest, KeepsEachCampaignsAnswerAndEveryRow) {
-  const auto merged = merge_stores({a, b}, out, kUnwatched);
-  ASSERT_TRUE(merged) << to_string(merged.error());
+  const auto merged = value_of(merge_stores({a, b}, out, kUnwatched));
   const auto reader = open_reader(out);
   ASSERT_EQ(reader->campaigns().size(), 2U);
   EXPECT_EQ(reader->alone(1)->digest(), digest_of(a));
   EXPECT_EQ(reader->alone(2)->digest(), digest_of(b));
-  EXPECT_EQ(reader->digest(), merged->digest);
+  EXPECT_EQ(reader->digest(), merged.digest);
   EXPECT_TRUE(reader->integrity().empty());
   EXPECT_THROW(reader->alone(3), std::invalid_argument);
   // A table that is new in the schema must be merged, too.
@@ -254,9 +242,8 @@ TEST_F(MergeTest, RenumbersWhatTheRowsName) {
                      "SELECT count(*) FROM v_candidates AS c JOIN v_candidates AS p"
                      " ON p.candidate = c.parent WHERE p.design <> c.design")[0][0],
             "0");
-  const auto campaign = reader->campaign_of({4});
-  ASSERT_TRUE(campaign);
-  EXPECT_EQ(campaign->row.name, "campaign 2");
+  const auto campaign = value_of(reader->campaign_of({4}));
+  EXPECT_EQ(campaign.row.name, "campaign 2");
   EXPECT_FALSE(reader->campaign_of({6}));
   EXPECT_EQ(reader->alone(2)->designs().front().id, DesignId{1});
   EXPECT_EQ(reader->alone(2)->commands().front().design, DesignId{3});
@@ -280,9 +267,8 @@ TEST_F(MergeTest, RealRunsAndTheirCandidatesMoveAndNoneComesTwice) {
   write_store(c, campaign_of_all_kinds(3, 2));
   ASSERT_TRUE((*StoreAtRest::open(c, StoreAtRest::IfMissing::Refuse))
                   ->add_real_run(*open_reader(b)->real_run({2})));
-  const auto refused = merge_stores({b, c}, folder / "all.db", kUnwatched);
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("its real run r3 is r2 of the stores before it"));
+  EXPECT_THAT(complaint_of(merge_stores({b, c}, folder / "all.db", kUnwatched)),
+              HasSubstr("its real run r3 is r2 of the stores before it"));
   EXPECT_FALSE(fs::exists(folder / "all.db"));
 }
 
@@ -292,13 +278,11 @@ TEST_F(MergeTest, MergedStoresCanBeMergedAndTheOrderDoesNotChangeTheDigest) {
   const fs::path other = folder / "other.db";
   write_store(c, campaign_of_all_kinds(3, 1));
   ASSERT_TRUE(merge_stores({a, b}, out, kUnwatched));
-  const auto one = merge_stores({c, out}, all, kUnwatched);
-  ASSERT_TRUE(one) << to_string(one.error());
-  const auto two = merge_stores({b, a, c}, other, kUnwatched);
-  ASSERT_TRUE(two);
-  EXPECT_EQ(one->digest, two->digest);
+  const auto one = value_of(merge_stores({c, out}, all, kUnwatched));
+  const auto two = value_of(merge_stores({b, a, c}, other, kUnwatched));
+  EXPECT_EQ(one.digest, two.digest);
   EXPECT_EQ(open_reader(all)->alone(3)->digest(), digest_of(b));
-  EXPECT_NE(one->digest, digest_of(out));
+  EXPECT_NE(one.digest, digest_of(out));
 }
 
 TEST_F(MergeTest, ClearsWhatKilledCopiesHaveLeftAndNothingElse) {
@@ -326,16 +310,15 @@ TEST_F(MergeTest, RefusesTheSameCampaignTwice) {
   ASSERT_FALSE(merged);
   EXPECT_EQ(merged.error().kind, ErrorKind::Conflict);
   EXPECT_THAT(merged.error().message, HasSubstr("a campaign is merged once"));
-  EXPECT_THAT(files(), testing::Not(testing::Contains(HasSubstr("out.db"))));
+  EXPECT_THAT(files(), Not(Contains(HasSubstr("out.db"))));
 }
 
 TEST_F(MergeTest, TakesUnfinishedCampaignsWithAWarning) {
   SyntheticCampaign unfinished = campaign_of_all_kinds(4, 1);
   unfinished.batches.resize(2);
   write_store(folder / "c.db", unfinished);
-  const auto merged = merge_stores({a, folder / "c.db"}, out, kUnwatched);
-  ASSERT_TRUE(merged);
-  EXPECT_THAT(merged->warnings, testing::Contains(HasSubstr("campaign 4 is not finished")));
+  const auto merged = value_of(merge_stores({a, folder / "c.db"}, out, kUnwatched));
+  EXPECT_THAT(merged.warnings, Contains(HasSubstr("campaign 4 is not finished")));
 }
 
 TEST_F(MergeTest, AMergedStoreIsNotWrittenByACampaign) {

@@ -216,10 +216,7 @@ TEST_F(CrashTest, AKilledWriterHasLostNothingThatItAcknowledged) {
     EXPECT_GE(marks_in_order(*reader, fmt::format("round {}", round)), acknowledged);
     EXPECT_TRUE(reader->integrity().empty());
   }
-  auto store = open_store(path, campaign);
-  for (const auto& batch : campaign.batches)
-    store->append(batch);
-  store.reset();
+  fill_store(path, campaign);
   EXPECT_EQ(digest_of(path), wanted);
 }
 

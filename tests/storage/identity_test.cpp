@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 
 #include <condition_variable>
 #include <fstream>
@@ -9,12 +8,13 @@
 #include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 /// What a store said last.
 class LastNews {
@@ -44,17 +44,13 @@ struct IdentityTest : testing::Test {
   LastNews news;
 
   std::unique_ptr<Store> filled_store() {
-    auto store = open_store(path, campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
+    auto store = swarmsmith::filled_store(path, campaign);
     EXPECT_TRUE(store->flush());
     store->set_listener(std::ref(news));
     return store;
   }
   Error refusal(const fs::path& name) {
-    auto store = Store::open(name, campaign.campaign, campaign.designs);
-    EXPECT_FALSE(store);
-    return store ? Error{} : store.error();
+    return why_not(Store::open(name, campaign.campaign, campaign.designs));
   }
   std::string wanted() { return digest_after(campaign, campaign.batches); }
 
@@ -68,9 +64,7 @@ struct IdentityTest : testing::Test {
     EXPECT_THAT(last.trouble, HasSubstr(sentence));
     EXPECT_THAT(last.trouble, HasSubstr(saved.string()));
     EXPECT_EQ(last.committed, campaign.batches.size());
-    const auto flushed = store->flush();
-    ASSERT_FALSE(flushed);
-    EXPECT_EQ(flushed.error().kind, ErrorKind::Conflict);
+    EXPECT_EQ(why_not(store->flush()).kind, ErrorKind::Conflict);
     store.reset();
     EXPECT_EQ(digest_of(saved), wanted());
     // As the sentence says.
@@ -153,8 +147,7 @@ TEST_F(IdentityTest, AReplacedStoreIsSavedAndWhatHasItsNameIsLeftAlone) {
         fs::create_hard_link(path, other);
       },
       "the store was deleted, and another file has its name, while");
-  std::ifstream kept(other);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), "somebody's text");
+  EXPECT_EQ(whole_file(other), "somebody's text");
 }
 
 TEST_F(IdentityTest, AStoreWithoutItsLogIsSaved) {
@@ -185,14 +178,12 @@ TEST_F(IdentityTest, NothingIsSavedOverAnotherFile) {
 
 TEST_F(IdentityTest, AnAdditionToALostStoreIsRefusedAndSaved) {
   filled_store();
-  auto store = StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse);
-  ASSERT_TRUE(store);
+  auto store = value_of(StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse));
   fs::remove(path);
-  const auto added = (*store)->add({.rows = {EventRow{.severity = "info", .kind = "mark"}}});
-  ASSERT_FALSE(added);
-  EXPECT_EQ(added.error().where, path.string());
-  EXPECT_THAT(added.error().message, HasSubstr("s.db.saved"));
-  store->reset();
+  const Error added = why_not(store->add({.rows = {EventRow{.severity = "info", .kind = "mark"}}}));
+  EXPECT_EQ(added.where, path.string());
+  EXPECT_THAT(added.message, HasSubstr("s.db.saved"));
+  store.reset();
   const auto reader = open_reader(path.string() + ".saved");
   EXPECT_EQ(cells_of(*reader, "SELECT count(*) FROM event WHERE kind = 'mark'").front().front(),
             "1");

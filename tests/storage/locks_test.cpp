@@ -1,4 +1,3 @@
-#include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <unistd.h>
@@ -15,6 +14,7 @@
 #include "storage/recover.h"
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -49,9 +49,7 @@ struct LocksTest : testing::Test {
   SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 1});
 
   std::unique_ptr<Store> filled_store() {
-    auto store = open_store(path, campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
+    auto store = swarmsmith::filled_store(path, campaign);
     store->flush();
     return store;
   }
@@ -86,14 +84,13 @@ TEST_F(LocksTest, NothingThatIsDoneWithAStoreTakesTheLockOfItsWriterAway) {
     EXPECT_TRUE(is_locked_here(path)) << what;
   };
   after("reading", [&] { EXPECT_NE(open_reader(path)->digest(), ""); });
-  after("checking", [&] { EXPECT_THAT(open_reader(path)->integrity(), testing::IsEmpty()); });
+  after("checking", [&] { EXPECT_THAT(open_reader(path)->integrity(), IsEmpty()); });
   after("asking", [&] { EXPECT_TRUE(is_database(path)); });
   after("copying", [&] { EXPECT_TRUE(back_up(path, folder / "b.db", [](auto, auto) {})); });
   after("merging", [&] { EXPECT_TRUE(merge_stores({path}, folder / "m.db", [](auto, auto) {})); });
   after("recovering", [&] {
-    auto recovery = Recovery::begin(path, folder / "r.db");
-    ASSERT_TRUE(recovery);
-    EXPECT_TRUE((*recovery)->finish());
+    auto recovery = value_of(Recovery::begin(path, folder / "r.db"));
+    EXPECT_TRUE(recovery->finish());
   });
   after("a second writer", [&] {
     EXPECT_FALSE(Store::open(path, campaign.campaign, campaign.designs));

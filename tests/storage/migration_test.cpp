@@ -1,9 +1,8 @@
-#include <gmock/gmock.h>
-
 #include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 #include "tests/support/synthetic_real_run.h"
 
 namespace swarmsmith {
@@ -83,7 +82,7 @@ TEST_P(MigrationTest, GivesTheTablesAndViewsOfANewStore) {
   opened_for_writing().reset();
   open_store(folder / "new.db", synthetic_campaign({.designs = 1, .iterations = 1})).reset();
   const std::string migrated = schema_of(path);
-  EXPECT_THAT(migrated, testing::HasSubstr("postselection INTEGER"));
+  EXPECT_THAT(migrated, HasSubstr("postselection INTEGER"));
   EXPECT_EQ(migrated, schema_of(folder / "new.db"));
 }
 
@@ -141,15 +140,14 @@ TEST(OldRealRuns, OfBeforeRobotsHadLogsStayAsTheyWere) {
   const TemporaryFolder folder;
   const auto path = folder / "old.db";
   std::filesystem::copy_file(SWARMSMITH_TEST_DATA "/stores/schema-9.sqlite", path);
-  const auto before = open_reader(path)->real_run({1});
-  ASSERT_TRUE(before) << to_string(before.error());
-  EXPECT_FALSE(before->samples.empty());
-  EXPECT_TRUE(before->logs.empty());
-  EXPECT_TRUE(before->checks.empty());
+  const auto before = value_of(open_reader(path)->real_run({1}));
+  EXPECT_FALSE(before.samples.empty());
+  EXPECT_TRUE(before.logs.empty());
+  EXPECT_TRUE(before.checks.empty());
   (*StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse)).reset();
   const auto reader = open_reader(path);
   EXPECT_EQ(reader->schema(), kSchemaVersion);
-  EXPECT_EQ(*reader->real_run({1}), *before);
+  EXPECT_EQ(*reader->real_run({1}), before);
   EXPECT_TRUE(reader->integrity().empty());
 }
 
@@ -161,7 +159,7 @@ TEST(OldRealRuns, SayHowTheirLogsCouldBeAskedFor) {
                            "SELECT * FROM v_real_logs", {}, [](const auto&) {}, [](const auto&) {});
   ASSERT_FALSE(end);
   EXPECT_THAT(end.error().message,
-              testing::HasSubstr("this store has schema 9; `swarmsmith backup old.db new.db`"));
+              HasSubstr("this store has schema 9; `swarmsmith backup old.db new.db`"));
 }
 
 TEST(OldViews, AStoreThatLacksViewsAloneIsReadThroughTheNewOnes) {

@@ -1,6 +1,5 @@
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,32 +12,18 @@
 #include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 struct OpeningTest : testing::Test {
   TemporaryFolder folder;
   std::filesystem::path path = folder / "s.db";
   SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 2});
 
-  void make_store() {
-    auto store = open_store(path, campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
-  }
-  Error refusal() {
-    auto store = Store::open(path, campaign.campaign, campaign.designs);
-    EXPECT_FALSE(store);
-    return store ? Error{} : store.error();
-  }
-  Error reader_refusal() {
-    auto reader = StoreReader::open(path);
-    EXPECT_FALSE(reader);
-    return reader ? Error{} : reader.error();
-  }
+  Error refusal() { return why_not(Store::open(path, campaign.campaign, campaign.designs)); }
+  Error reader_refusal() { return why_not(StoreReader::open(path)); }
   void execute(const std::string& sql) {
     sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE).execute(sql);
   }
@@ -49,7 +34,7 @@ struct OpeningTest : testing::Test {
 
 TEST_F(OpeningTest, MakesAStoreInAnEmptyFileToo) {
   std::ofstream(path).flush();
-  make_store();
+  fill_store(path, campaign);
   EXPECT_TRUE(open_reader(path)->finished());
 }
 
@@ -62,7 +47,7 @@ TEST_F(OpeningTest, RefusesAFileThatIsNoDatabase) {
 }
 
 TEST_F(OpeningTest, RefusesATruncatedStoreAndSaysHowMuchIsMissing) {
-  make_store();
+  fill_store(path, campaign);
   const auto size = std::filesystem::file_size(path);
   for (const auto left : {size - 8192, size / 2, std::uintmax_t{50}}) {
     std::filesystem::resize_file(path, left);
@@ -82,7 +67,7 @@ TEST_F(OpeningTest, RefusesAnotherProgramsDatabaseAndLeavesItAlone) {
 }
 
 TEST_F(OpeningTest, RefusesAStoreOfALaterVersion) {
-  make_store();
+  fill_store(path, campaign);
   execute("PRAGMA user_version = 99");
   EXPECT_EQ(refusal().kind, ErrorKind::Newer);
   EXPECT_THAT(refusal().message, HasSubstr("schema 99"));
@@ -90,14 +75,14 @@ TEST_F(OpeningTest, RefusesAStoreOfALaterVersion) {
 }
 
 TEST_F(OpeningTest, RefusesAnotherCampaignAndNamesWhatDiffers) {
-  make_store();
+  fill_store(path, campaign);
   campaign.campaign.digest = "0ther";
   campaign.campaign.deciding = R"({"seed":1,"race":{"budget":2000},"flavour":"watermelon"})";
   const Error error = refusal();
   EXPECT_EQ(error.kind, ErrorKind::Conflict);
   EXPECT_THAT(error.message, HasSubstr("race.budget is 100000 in the store and 2000 in the "
                                        "campaign; flavour is nothing in the store and watermelon"));
-  EXPECT_THAT(error.message, testing::Not(HasSubstr("seed is")));
+  EXPECT_THAT(error.message, Not(HasSubstr("seed is")));
 }
 
 TEST_F(OpeningTest, NamesTenDifferencesAtMost) {
@@ -105,11 +90,11 @@ TEST_F(OpeningTest, NamesTenDifferencesAtMost) {
   for (int i = 0; i < 14; ++i)
     keys += fmt::format("{}\"key{}\":1", i == 0 ? "" : ",", i);
   campaign.campaign.deciding = "{" + keys + "}";
-  make_store();
+  fill_store(path, campaign);
   campaign.campaign.digest = "0ther";
   campaign.campaign.deciding = "{}";
   EXPECT_THAT(refusal().message, HasSubstr("and 4 more"));
-  EXPECT_THAT(refusal().message, testing::Not(HasSubstr("key13")));
+  EXPECT_THAT(refusal().message, Not(HasSubstr("key13")));
 }
 
 TEST_F(OpeningTest, SaysThatAFolderIsMissingOrThatAStoreIsAFile) {
@@ -139,7 +124,7 @@ TEST_F(OpeningTest, KnowsWhichProgramsBehindFuseAreLocal) {
   }
   for (const char* shared : {"fuse.sshfs", "fuse.glusterfs", "fuse.mergerfs", "fuse.new-thing",
                              "virtiofs", "bindfs", "fuse.fuse.bindfs"}) {
-    EXPECT_THAT(kind_of_shared(kFuse, shared), testing::StartsWith(shared)) << shared;
+    EXPECT_THAT(kind_of_shared(kFuse, shared), StartsWith(shared)) << shared;
   }
   for (const char* unknown : {"", "fuse"})
     EXPECT_THAT(kind_of_shared(kFuse, unknown), HasSubstr("unknown kind")) << unknown;
@@ -156,7 +141,7 @@ TEST_F(OpeningTest, RefusesTextsThatAreLongerThanAnyOfOurs) {
       {"campaign.name", kName},    {"source.name", kName},         {"design.mission", kName},
       {"design.method", kName},    {"design.flavour", kName},      {"design.reason", 1 << 20},
       {"phrase.machine", 8 << 20}, {"phrase.parameters", 8 << 20}, {"phrase.modules", 8 << 20}};
-  make_store();
+  fill_store(path, campaign);
   execute("INSERT OR IGNORE INTO phrase (id, machine, parameters, modules) VALUES (1, '', '', '')");
   const std::filesystem::path whole = folder / "whole.db";
   std::filesystem::copy_file(path, whole);
@@ -248,7 +233,7 @@ TEST_F(OpeningTest, NamesTheProcessThatHoldsTheStoreAndOpensWhenItHasDied) {
 }
 
 TEST_F(OpeningTest, LooksAtEveryPageAfterAnUncleanEnd) {
-  make_store();
+  fill_store(path, campaign);
   // A page in the middle; its kind, 0, is none that SQLite knows.
   const auto closed = std::filesystem::last_write_time(path);
   overwrite(8192 * 5, std::string(200, '\0'));
@@ -261,7 +246,7 @@ TEST_F(OpeningTest, LooksAtEveryPageAfterAnUncleanEnd) {
 
 TEST_F(OpeningTest, ReadsAStoreInAFolderThatMayNotBeWritten) {
   if (::geteuid() != 0) GTEST_SKIP() << "needs root, to become somebody else";
-  make_store();
+  fill_store(path, campaign);
   const std::string wanted = digest_of(path);
   std::filesystem::remove(path.string() + "-wal");
   std::filesystem::remove(path.string() + "-shm");
@@ -284,7 +269,7 @@ TEST_F(OpeningTest, ReadsAStoreInAFolderThatMayNotBeWritten) {
 }
 
 TEST_F(OpeningTest, MigratesStepByStepAfterACopy) {
-  make_store();
+  fill_store(path, campaign);
   sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
   const std::vector<Migration> steps{
       {kSchemaVersion + 1,
@@ -304,7 +289,7 @@ TEST_F(OpeningTest, MigratesStepByStepAfterACopy) {
 }
 
 TEST_F(OpeningTest, LeavesTheVersionBeforeWhenAMigrationFails) {
-  make_store();
+  fill_store(path, campaign);
   const std::string before = digest_of(path);
   {
     sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);

@@ -1,8 +1,8 @@
-#include <gmock/gmock.h>
 #include <fstream>
 
 #include "storage/internal/sqlite.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 #include "tests/support/peak_memory.h"
 
 namespace swarmsmith {
@@ -10,22 +10,13 @@ namespace {
 
 using Cell = StoreReader::Cell;
 
-struct QueryTest : testing::Test {
-  TemporaryFolder folder;
+struct QueryTest : FilledStore {
+  QueryTest() : FilledStore(synthetic_campaign({.designs = 1, .iterations = 1})) {}
+
   std::filesystem::path path = folder / "s.db";
-  SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 1});
-  std::unique_ptr<StoreReader> reader;
   std::vector<std::string> columns;
   std::vector<std::vector<Cell>> rows;
 
-  void SetUp() override {
-    {
-      auto store = open_store(path, campaign);
-      for (const auto& batch : campaign.batches)
-        store->append(batch);
-    }
-    reader = open_reader(path);
-  }
   Expected<StoreReader::QueryEnd> query(const std::string& sql,
                                         const StoreReader::QueryLimits& limits = {}) {
     rows.clear();
@@ -62,7 +53,7 @@ TEST_F(QueryTest, GivesColumnsAndCellsWithTheirTypes) {
   ASSERT_TRUE(end);
   EXPECT_EQ(end->rows, 1);
   EXPECT_FALSE(end->truncated);
-  EXPECT_THAT(columns, testing::ElementsAre("one", "tenth", "text", "none"));
+  EXPECT_THAT(columns, ElementsAre("one", "tenth", "text", "none"));
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0][0].type, Cell::Type::Integer);
   EXPECT_EQ(rows[0][1].text, "0.1");
@@ -73,7 +64,7 @@ TEST_F(QueryTest, GivesColumnsAndCellsWithTheirTypes) {
 
 TEST_F(QueryTest, TellsColumnsOfAnAnswerWithoutRows) {
   ASSERT_TRUE(query("SELECT design, state FROM v_designs WHERE design = 99"));
-  EXPECT_THAT(columns, testing::ElementsAre("design", "state"));
+  EXPECT_THAT(columns, ElementsAre("design", "state"));
   EXPECT_TRUE(rows.empty());
 }
 
@@ -99,10 +90,9 @@ TEST_F(QueryTest, RefusesWhateverIsNotReading) {
                                 "PRAGMA wal_checkpoint",
                                 "PRAGMA writable_schema = ON",
                                 "UPDATE sqlite_schema SET sql = ''"}) {
-    const auto end = query(sql);
-    ASSERT_FALSE(end) << sql;
-    EXPECT_EQ(end.error().kind, ErrorKind::BadInput);
-    EXPECT_FALSE(end.error().message.empty());
+    const Error end = why_not(query(sql));
+    EXPECT_EQ(end.kind, ErrorKind::BadInput) << sql;
+    EXPECT_FALSE(end.message.empty());
   }
 }
 
@@ -115,10 +105,10 @@ TEST_F(QueryTest, AllowsToAskForTheShapeOfTables) {
 
 TEST_F(QueryTest, RefusesMistakesWithTheReasonOfSqlite) {
   EXPECT_THAT(query("SELECT missing FROM v_designs").error().message,
-              testing::HasSubstr("no such column: missing"));
-  EXPECT_THAT(query("SELEC 1").error().message, testing::HasSubstr("syntax error"));
-  EXPECT_THAT(query("  ").error().message, testing::HasSubstr("empty"));
-  EXPECT_THAT(query("SELECT 1; SELECT 2").error().message, testing::HasSubstr("one statement"));
+              HasSubstr("no such column: missing"));
+  EXPECT_THAT(query("SELEC 1").error().message, HasSubstr("syntax error"));
+  EXPECT_THAT(query("  ").error().message, HasSubstr("empty"));
+  EXPECT_THAT(query("SELECT 1; SELECT 2").error().message, HasSubstr("one statement"));
 }
 
 /// An error repeats the statement only to the person who typed it.
@@ -128,14 +118,11 @@ TEST_F(QueryTest, RepeatsAStatementOnlyWhereItWasTyped) {
         std::string(
             "SELECT group_concat(printf('%0500000d', 1), '') FROM (SELECT value FROM "
             "json_each('[' || substr(replace(hex(zeroblob(300)), '0', ',1'), 2) || ']'))")}) {
-    const auto own = query(sql, {.seconds = 600});
-    ASSERT_FALSE(own) << sql;
-    EXPECT_EQ(own.error().where, path.string());
-    EXPECT_THAT(to_string(own.error()), testing::Not(testing::HasSubstr("SELECT")));
-    EXPECT_THAT(to_string(own.error()), testing::Not(testing::HasSubstr("query")));
-    const auto typed = query(sql, {.seconds = 600, .typed = true});
-    ASSERT_FALSE(typed) << sql;
-    EXPECT_EQ(typed.error().where, sql);
+    const Error own = why_not(query(sql, {.seconds = 600}));
+    EXPECT_EQ(own.where, path.string()) << sql;
+    EXPECT_THAT(to_string(own), Not(HasSubstr("SELECT")));
+    EXPECT_THAT(to_string(own), Not(HasSubstr("query")));
+    EXPECT_EQ(why_not(query(sql, {.seconds = 600, .typed = true})).where, sql);
   }
 }
 
@@ -165,24 +152,22 @@ TEST_F(QueryTest, SortsOnTheDiskOfTheStore) {
   EXPECT_EQ(end->rows, 60000);
   EXPECT_TRUE(spilled) << "temporary files are elsewhere";
   for (const auto& entry : std::filesystem::directory_iterator(path.parent_path()))
-    EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::HasSubstr("spill")));
+    EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr("spill")));
 }
 
 TEST_F(QueryTest, StopsAtTheLimitOfRows) {
-  const auto end = query("SELECT * FROM v_evaluations", {.rows = 3});
-  ASSERT_TRUE(end);
-  EXPECT_EQ(end->rows, 3);
-  EXPECT_TRUE(end->truncated);
+  const auto end = value_of(query("SELECT * FROM v_evaluations", {.rows = 3}));
+  EXPECT_EQ(end.rows, 3);
+  EXPECT_TRUE(end.truncated);
   EXPECT_FALSE(query("SELECT * FROM v_designs", {.rows = 1})->truncated);
 }
 
 TEST_F(QueryTest, StopsAtTheLimitOfTimeAlsoBeforeTheFirstRow) {
-  const auto end = query(
+  const auto end = value_of(query(
       "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT count(*) FROM n",
-      {.seconds = 0.02});
-  ASSERT_TRUE(end);
-  EXPECT_EQ(end->rows, 0);
-  EXPECT_TRUE(end->truncated);
+      {.seconds = 0.02}));
+  EXPECT_EQ(end.rows, 0);
+  EXPECT_TRUE(end.truncated);
   EXPECT_TRUE(query("SELECT 1")) << "the limit outlived its query";
 }
 
@@ -209,10 +194,9 @@ TEST_F(QueryTest, TakesNoMoreMemoryThanItMay) {
         std::string("SELECT randomblob(30000000), randomblob(30000000), randomblob(30000000), "
                     "randomblob(30000000), randomblob(30000000), randomblob(30000000)"),
         std::string("SELECT zeroblob(30000000), zeroblob(30000000), zeroblob(30000000)")}) {
-    const auto end = query(sql, {.seconds = 600, .typed = true});
-    ASSERT_FALSE(end) << sql << " gave " << end->rows << " rows";
-    EXPECT_EQ(end.error().kind, ErrorKind::BadInput) << sql;
-    EXPECT_THAT(end.error().message, testing::HasSubstr(" MB")) << sql;
+    const Error end = why_not(query(sql, {.seconds = 600, .typed = true}));
+    EXPECT_EQ(end.kind, ErrorKind::BadInput) << sql;
+    EXPECT_THAT(end.message, HasSubstr(" MB")) << sql;
     rows.clear();
   }
   EXPECT_LT(peak_memory() - before, 500);
@@ -224,19 +208,18 @@ TEST_F(QueryTest, StopsAtTheLimitOfBytes) {
   const std::string many =
       "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 1000000) "
       "SELECT printf('%01000d', i) FROM n";
-  const auto end = query(many, {.bytes = 1 << 20});
-  ASSERT_TRUE(end);
-  EXPECT_TRUE(end->truncated);
-  EXPECT_GT(end->rows, 900);
-  EXPECT_LT(end->rows, 1100);
+  const auto end = value_of(query(many, {.bytes = 1 << 20}));
+  EXPECT_TRUE(end.truncated);
+  EXPECT_GT(end.rows, 900);
+  EXPECT_LT(end.rows, 1100);
 }
 
 TEST_F(QueryTest, FindsNoFaultInASoundStoreAndSaysWhatIsWrongInAnother) {
-  EXPECT_THAT(reader->integrity(), testing::IsEmpty());
+  EXPECT_THAT(reader->integrity(), IsEmpty());
   sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE)
       .execute("PRAGMA foreign_keys = OFF; DELETE FROM candidate WHERE id = 1");
   EXPECT_THAT(reader->integrity(),
-              testing::Contains("rows of evaluation name rows of candidate that do not exist: 5"));
+              Contains("rows of evaluation name rows of candidate that do not exist: 5"));
 }
 
 }  // namespace

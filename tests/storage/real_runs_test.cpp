@@ -2,14 +2,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <tuple>
 
 #include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 #include "tests/support/faulty_disk.h"
 #include "tests/support/synthetic_real_run.h"
 
@@ -17,9 +16,6 @@ namespace swarmsmith {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 using Cells = std::vector<std::string>;
 using IfMissing = StoreAtRest::IfMissing;
 
@@ -33,28 +29,18 @@ struct RealRunsTest : testing::Test {
   std::string digest;
 
   void SetUp() override {
-    {
-      const auto store = open_store(path, campaign);
-      for (const auto& batch : campaign.batches)
-        store->append(batch);
-    }
+    fill_store(path, campaign);
     digest = digest_of(path);
   }
   std::unique_ptr<StoreAtRest> opened() {
-    auto store = StoreAtRest::open(path, IfMissing::Make);
-    EXPECT_TRUE(store) << (store ? "" : to_string(store.error()));
-    return store ? std::move(*store) : nullptr;
+    return value_of(StoreAtRest::open(path, IfMissing::Make));
   }
   RealRunId added(const RealRunRows& rows) {
     const auto written = opened()->add_real_run(rows);
     EXPECT_TRUE(written) << (written ? "" : to_string(written.error()));
     return written ? written->id : RealRunId{};
   }
-  RealRunRows stored(RealRunId id) {
-    auto rows = open_reader(path)->real_run(id);
-    EXPECT_TRUE(rows) << (rows ? "" : to_string(rows.error()));
-    return rows ? std::move(*rows) : RealRunRows{};
-  }
+  RealRunRows stored(RealRunId id) { return value_of(open_reader(path)->real_run(id)); }
   std::vector<Cells> all(const std::string& sql) { return cells_of(*open_reader(path), sql); }
 };
 
@@ -93,10 +79,9 @@ TEST_F(RealRunsTest, TimesKeepTheirBitsAndCornersTheirThousandths) {
 TEST_F(RealRunsTest, TheSameRunIsStoredOnce) {
   const RealRunRows rows = synthetic_real_run(1, kWinner);
   const RealRunId id = added(rows);
-  const auto again = opened()->add_real_run(rows);
-  ASSERT_TRUE(again);
-  EXPECT_EQ(again->id, id);
-  EXPECT_FALSE(again->is_new);
+  const auto again = value_of(opened()->add_real_run(rows));
+  EXPECT_EQ(again.id, id);
+  EXPECT_FALSE(again.is_new);
   EXPECT_NE(added(synthetic_real_run(2, kWinner)), id);
   EXPECT_EQ(all("SELECT count(*) FROM v_real_scores")[0], Cells{"2"});
 }
@@ -108,11 +93,10 @@ TEST_F(RealRunsTest, OtherInputsOfAStoredRunAreRefusedWithTheWayOut) {
   mended.calibrations[1].sha256 = "another place";
   mended.videos[0].place_calibration = "another place";
   mended.log += "# changed\n";
-  const auto refused = opened()->add_real_run(mended);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::Conflict);
-  EXPECT_THAT(refused.error().message, HasSubstr("the run log, calibrations differ"));
-  EXPECT_THAT(refused.error().message, HasSubstr("swarmsmith track rescore r1"));
+  const Error refused = why_not(opened()->add_real_run(mended));
+  EXPECT_EQ(refused.kind, ErrorKind::Conflict);
+  EXPECT_THAT(refused.message, HasSubstr("the run log, calibrations differ"));
+  EXPECT_THAT(refused.message, HasSubstr("swarmsmith track rescore r1"));
   EXPECT_EQ(stored({1}), in_order(rows));
 }
 
@@ -121,13 +105,10 @@ TEST_F(RealRunsTest, OtherLogsOfRobotsAreOtherInputs) {
   added(rows);
   // What follows from them is not input.
   rows.logs[0].latency_s = 0.3;
-  const auto again = opened()->add_real_run(rows);
-  ASSERT_TRUE(again);
-  EXPECT_FALSE(again->is_new);
+  const auto again = value_of(opened()->add_real_run(rows));
+  EXPECT_FALSE(again.is_new);
   rows.log_cycles[3].left_mps = 0.1;
-  const auto refused = opened()->add_real_run(rows);
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("the robots' logs differ"));
+  EXPECT_THAT(complaint_of(opened()->add_real_run(rows)), HasSubstr("the robots' logs differ"));
 }
 
 TEST_F(RealRunsTest, CommandsOfRobotsStandBesideWhatTheCameraSaw) {
@@ -172,10 +153,9 @@ TEST_F(RealRunsTest, ALostRowOfALogIsFound) {
 
 TEST_F(RealRunsTest, WhatIsWrongIsRefusedAndNothingIsWritten) {
   RealRunRows rows = synthetic_real_run(1, {999'999});
-  const auto refused = opened()->add_real_run(rows);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::NotFound);
-  EXPECT_THAT(refused.error().message, HasSubstr("no candidate c999999"));
+  const Error refused = why_not(opened()->add_real_run(rows));
+  EXPECT_EQ(refused.kind, ErrorKind::NotFound);
+  EXPECT_THAT(refused.message, HasSubstr("no candidate c999999"));
   rows = synthetic_real_run(1, kWinner);
   rows.cycles.back().x = std::nan("");
   EXPECT_THROW(static_cast<void>(opened()->add_real_run(rows)), std::invalid_argument);
@@ -226,9 +206,7 @@ TEST_F(RealRunsTest, AreScoredAgainFromTheSameSightings) {
               ElementsAre(Cells{"2026-11-01T11:00:00Z", "2026-11-20T10:00:00Z", "0"},
                           Cells{"2026-11-20T10:00:00Z", "NULL", "1"}));
   again.samples[2].corners[3] += 1;
-  const auto refused = opened()->rescore_real_run(id, again);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
+  EXPECT_EQ(why_not(opened()->rescore_real_run(id, again)).kind, ErrorKind::BadInput);
   EXPECT_EQ(opened()->rescore_real_run({7}, rows).error().kind, ErrorKind::NotFound);
 }
 
@@ -324,11 +302,10 @@ TEST_F(RealRunsTest, AFullDiskAtAnyChangeLeavesAllOrNothing) {
       fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
       FaultyDisk disk;
       {
-        auto store = StoreAtRest::open(copy, IfMissing::Refuse);
-        ASSERT_TRUE(store);
+        auto store = value_of(StoreAtRest::open(copy, IfMissing::Refuse));
         const std::int64_t before = disk.changes();
         disk.fail_at(n, code, 1'000'000);
-        const auto written = (*store)->add_real_run(rows);
+        const auto written = store->add_real_run(rows);
         failed = !written || disk.changes() >= before + n;
         if (!written) {
           ++refusals;
@@ -339,9 +316,8 @@ TEST_F(RealRunsTest, AFullDiskAtAnyChangeLeavesAllOrNothing) {
       }
       expect_all_or_nothing(copy, rows, "change " + std::to_string(n));
       // And there is room again.
-      auto store = StoreAtRest::open(copy, IfMissing::Refuse);
-      ASSERT_TRUE(store) << to_string(store.error());
-      EXPECT_TRUE((*store)->add_real_run(rows));
+      auto store = value_of(StoreAtRest::open(copy, IfMissing::Refuse));
+      EXPECT_TRUE(store->add_real_run(rows));
     }
   }
   EXPECT_GT(refusals, 10);

@@ -1,9 +1,6 @@
 #include "storage/recover.h"
 
-#include <gmock/gmock.h>
-
 #include <fstream>
-#include <iterator>
 #include <set>
 
 #include "base/rng.h"
@@ -11,21 +8,17 @@
 #include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 #include "tests/support/synthetic_real_run.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/write_ahead_log.h"
 
 namespace swarmsmith {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 constexpr std::size_t kPage = 8192;
-
-std::string read_bytes(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 void write_bytes(const fs::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
@@ -40,15 +33,11 @@ struct RecoverTest : testing::Test {
   std::string bytes, digest;
 
   void SetUp() override {
-    {
-      const auto store = open_store(damaged, campaign);
-      for (const auto& batch : campaign.batches)
-        store->append(batch);
-    }
+    fill_store(damaged, campaign);
     digest = digest_of(damaged);
     for (const char* ending : {"-wal", "-shm"})
       fs::remove(damaged.string() + ending);
-    bytes = read_bytes(damaged);
+    bytes = whole_file(damaged);
     ASSERT_GT(bytes.size(), 20 * kPage);
   }
 
@@ -139,7 +128,7 @@ struct RecoverRealRuns : RecoverTest {
     }
     for (std::int64_t id = 1; id <= 3; ++id)
       runs.push_back(*open_reader(damaged)->real_run({id}));
-    bytes = read_bytes(damaged);
+    bytes = whole_file(damaged);
   }
 };
 
@@ -168,11 +157,9 @@ TEST_F(RecoverRealRuns, AStoreOfRealRunsAloneNeedsNoCampaignFile) {
   const std::string whole = digest_of(path);
   sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE).execute("DELETE FROM campaign");
   fs::remove(out);
-  auto recovery = Recovery::begin(path, out);
-  ASSERT_TRUE(recovery);
-  const auto end = (*recovery)->finish();
-  ASSERT_TRUE(end) << to_string(end.error());
-  EXPECT_EQ(end->digest, whole);
+  auto recovery = value_of(Recovery::begin(path, out));
+  const auto end = value_of(recovery->finish());
+  EXPECT_EQ(end.digest, whole);
   EXPECT_EQ(open_reader(out)->real_runs().size(), 2U);
 }
 
@@ -218,9 +205,7 @@ TEST_F(RecoverRealRuns, ARunThatLostItsCalibrationsSaysSo) {
 
 TEST_F(RecoverTest, WhatWasOnlyInTheLogIsFoundThere) {
   fs::remove(damaged);
-  const auto store = open_store(damaged, campaign);
-  for (const auto& batch : campaign.batches)
-    store->append(batch);
+  const auto store = filled_store(damaged, campaign);
   store->flush();
   fs::copy_file(damaged, folder / "crashed.db");
   fs::copy_file(damaged.string() + "-wal", folder / "crashed.db-wal");
@@ -311,30 +296,23 @@ TEST_F(RecoverTest, CellsThatAllLeadToOneLongChainAreNotFollowedForEver) {
     file += page <= 300 ? leaf : chained;
   }
   write_bytes(damaged, file);
-  const auto recovery = Recovery::begin(damaged, out);
-  ASSERT_FALSE(recovery);
-  EXPECT_THAT(recovery.error().message, HasSubstr("nothing of a store"));
+  EXPECT_THAT(complaint_of(Recovery::begin(damaged, out)), HasSubstr("nothing of a store"));
 }
 
 TEST_F(RecoverTest, SaysWhatCannotBe) {
   write_bytes(damaged, std::string(50'000, 'x'));
-  auto nothing = Recovery::begin(damaged, out);
-  ASSERT_FALSE(nothing);
-  EXPECT_THAT(nothing.error().message, HasSubstr("nothing of a store"));
+  EXPECT_THAT(complaint_of(Recovery::begin(damaged, out)), HasSubstr("nothing of a store"));
   EXPECT_FALSE(Recovery::begin(folder / "none.db", out));
   write_bytes(out, "mine");
-  const auto taken = Recovery::begin(damaged, out);
-  ASSERT_FALSE(taken);
-  EXPECT_THAT(taken.error().message, HasSubstr("nothing is overwritten"));
-  EXPECT_EQ(read_bytes(out), "mine");
+  EXPECT_THAT(complaint_of(Recovery::begin(damaged, out)), HasSubstr("nothing is overwritten"));
+  EXPECT_EQ(whole_file(out), "mine");
 }
 
 TEST_F(RecoverTest, ACampaignOfOtherDesignsIsRefused) {
-  auto recovery = Recovery::begin(damaged, out);
-  ASSERT_TRUE(recovery);
+  auto recovery = value_of(Recovery::begin(damaged, out));
   std::vector<DesignRow> others = campaign.designs;
   others.front().seed += 1;
-  EXPECT_FALSE((*recovery)->put_designs((*recovery)->campaigns().front(), others));
+  EXPECT_FALSE(recovery->put_designs(recovery->campaigns().front(), others));
 }
 
 TEST(Recover, OldSchemasAreRecoveredAsSuchWithAndWithoutTheirHeader) {
@@ -343,15 +321,14 @@ TEST(Recover, OldSchemasAreRecoveredAsSuchWithAndWithoutTheirHeader) {
     const std::string file =
         std::string(SWARMSMITH_TEST_DATA) + "/stores/schema-" + std::to_string(schema) + ".sqlite";
     const std::string digest = digest_of(file);
-    const std::string bytes = read_bytes(file);
+    const std::string bytes = whole_file(file);
     for (const std::size_t lost : {std::size_t{0}, std::size_t{100}}) {
       write_bytes(folder / "old.db", std::string(lost, '\0') + bytes.substr(lost));
-      auto recovery = Recovery::begin(folder / "old.db", folder / ("new" + std::to_string(lost)));
-      ASSERT_TRUE(recovery) << to_string(recovery.error());
-      EXPECT_EQ((*recovery)->found().header_is_damaged, lost > 0);
-      const auto end = (*recovery)->finish();
-      ASSERT_TRUE(end) << to_string(end.error());
-      EXPECT_EQ(end->digest, digest) << "schema " << schema << " without " << lost << " bytes";
+      auto recovery =
+          value_of(Recovery::begin(folder / "old.db", folder / ("new" + std::to_string(lost))));
+      EXPECT_EQ(recovery->found().header_is_damaged, lost > 0);
+      const auto end = value_of(recovery->finish());
+      EXPECT_EQ(end.digest, digest) << "schema " << schema << " without " << lost << " bytes";
     }
   }
 }

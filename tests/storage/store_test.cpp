@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <algorithm>
-#include <fstream>
 
 #include <bit>
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "storage/answer.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
@@ -195,11 +195,7 @@ TEST_F(StoreTest, CountsTicketsFromOneAndTellsThemInOrderBeforeFlushReturns) {
 }
 
 TEST_F(StoreTest, CommitsWhatIsQueuedWhenItEndsAndLeavesOneFile) {
-  {
-    auto store = open_store(path, campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
-  }
+  fill_store(path, campaign);
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     names.push_back(entry.path().filename().string());
@@ -308,9 +304,7 @@ TEST_F(StoreTest, KeepsASecretUntilTheCampaignIsFinished) {
   EXPECT_EQ(cells_of(*open_reader(path), "SELECT * FROM meta WHERE key = 'lease_secret'").size(),
             0U);
   store.reset();
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  EXPECT_EQ(bytes.find(secret), std::string::npos) << "stores are published";
+  EXPECT_EQ(whole_file(path).find(secret), std::string::npos) << "stores are published";
 }
 
 }  // namespace

@@ -3,20 +3,17 @@
 
 #include "storage/stored_enums.h"
 
-#include <gmock/gmock.h>
-
 #include <set>
 
 #include "storage/answer.h"
 #include "storage/internal/sqlite.h"
 #include "storage/recover.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 /// A finished design whose winner has an evaluation of each purpose and each status, each on a pair
 /// of its own.
@@ -123,12 +120,10 @@ TEST_F(StoredEnums, TheAnswerInAStoreIsThatOfTheRows) {
 
 TEST_F(StoredEnums, RecoveryOfASoundStoreKeepsEveryValue) {
   const std::filesystem::path out = folder / "out.db";
-  auto recovery = Recovery::begin(file, out);
-  ASSERT_TRUE(recovery) << to_string(recovery.error());
-  const auto end = (*recovery)->finish();
-  ASSERT_TRUE(end) << to_string(end.error());
-  EXPECT_EQ(end->orphans, 0);
-  EXPECT_EQ(end->digest, digest_of(file));
+  auto recovery = value_of(Recovery::begin(file, out));
+  const auto end = value_of(recovery->finish());
+  EXPECT_EQ(end.orphans, 0);
+  EXPECT_EQ(end.digest, digest_of(file));
   const auto reader = open_reader(out);
   for (const EvaluationRow& row : evaluations) {
     const auto scores = reader->scores();
@@ -146,11 +141,9 @@ TEST_F(StoredEnums, RecoveryKeepsEveryStateOfADesign) {
       connection.execute("UPDATE design SET state = " + std::to_string(static_cast<int>(state)));
     }
     const std::filesystem::path out = folder / (std::string(word_of(state)) + ".db");
-    auto recovery = Recovery::begin(file, out);
-    ASSERT_TRUE(recovery) << to_string(recovery.error());
-    const auto end = (*recovery)->finish();
-    ASSERT_TRUE(end) << to_string(end.error());
-    EXPECT_EQ(end->orphans, 0) << word_of(state);
+    auto recovery = value_of(Recovery::begin(file, out));
+    const auto end = value_of(recovery->finish());
+    EXPECT_EQ(end.orphans, 0) << word_of(state);
     EXPECT_EQ(cells_of(*open_reader(out), "SELECT state FROM v_designs")[0][0], word_of(state));
   }
 }

@@ -1,16 +1,14 @@
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include "storage/answer.h"
 #include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::ElementsAre;
 using Cells = std::vector<std::string>;
 
 constexpr DesignId kDesign{1};
@@ -76,11 +74,7 @@ struct TargetsTest : testing::Test {
   }
 
   std::vector<Cells> all(const std::string& sql) {
-    {
-      auto store = open_store(folder / "s.db", campaign);
-      for (const auto& batch : campaign.batches)
-        store->append(batch);
-    }
+    fill_store(folder / "s.db", campaign);
     return cells_of(*open_reader(folder / "s.db"), sql);
   }
 };

@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-
 #include <fmt/format.h>
 #include <algorithm>
 #include <map>
@@ -9,12 +7,11 @@
 #include "storage/internal/sqlite.h"
 #include "tests/analysis/machines/machines_to_draw.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
 using Cells = std::vector<std::string>;
 
 /// The public schema. Scripts rely on it: a change here is a new version of the schema, and a line
@@ -159,19 +156,9 @@ SyntheticCampaign by_hand() {
   return made;
 }
 
-struct ViewsTest : testing::Test {
-  TemporaryFolder folder;
-  std::unique_ptr<StoreReader> reader;
+struct ViewsTest : FilledStore {
+  ViewsTest() : FilledStore(by_hand()) {}
 
-  void SetUp() override {
-    const SyntheticCampaign campaign = by_hand();
-    {
-      auto store = open_store(folder / "s.db", campaign);
-      for (const auto& batch : campaign.batches)
-        store->append(batch);
-    }
-    reader = open_reader(folder / "s.db");
-  }
   std::vector<Cells> all(const std::string& sql) { return cells_of(*reader, sql); }
 };
 
@@ -385,8 +372,8 @@ TEST_F(MachineViewsTest, RankWithoutSortingTheWholeStore) {
   store({});
   bool sorts_a_part = false;
   for (const Cells& row : all("EXPLAIN QUERY PLAN SELECT * FROM v_race_matrix")) {
-    EXPECT_EQ(row.back().find("USE TEMP B-TREE FOR ORDER BY"), std::string::npos);
-    EXPECT_EQ(row.back().find("AUTOMATIC"), std::string::npos) << row.back();
+    EXPECT_THAT(row.back(), Not(HasSubstr("USE TEMP B-TREE FOR ORDER BY")));
+    EXPECT_THAT(row.back(), Not(HasSubstr("AUTOMATIC")));
     // SQLite 3.40 says the former, 3.46 the latter.
     sorts_a_part |= row.back() == "USE TEMP B-TREE FOR RIGHT PART OF ORDER BY" ||
                     row.back().starts_with("USE TEMP B-TREE FOR LAST ");
@@ -513,9 +500,9 @@ TEST_F(ViewsTest, MachinesOfWinnersReadTheRowsOfTheseAlone) {
                     " WHERE c.candidate = d.best_candidate) FROM v_designs AS d"),
               ElementsAre("SCAN design"));
   EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM v_states WHERE candidate = 2"),
-              testing::Not(testing::Contains(testing::StartsWith("SCAN c"))));
+              Not(Contains(StartsWith("SCAN c"))));
   EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM v_modules WHERE candidate = 2"),
-              testing::Not(testing::Contains(testing::StartsWith("SCAN c"))));
+              Not(Contains(StartsWith("SCAN c"))));
 }
 
 TEST_F(ViewsTest, OfOneRealRunReadTheRowsOfThatRunAlone) {
@@ -537,7 +524,7 @@ TEST_F(ViewsTest, OfOneRealRunReadTheRowsOfThatRunAlone) {
 TEST_F(ViewsTest, TheRaceMatrixOfADesignIterationOrStepReadsNothingElse) {
   for (const std::string also : {"", " AND iteration = 1", " AND step = 2"}) {
     EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM v_race_matrix WHERE design = 2" + also),
-                testing::Each(testing::AnyOf("SCAN t", testing::StartsWith("SCAN (subquery"))))
+                testing::Each(testing::AnyOf("SCAN t", StartsWith("SCAN (subquery"))))
         << also;
   }
 }

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 
 #include <condition_variable>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include "storage/store_at_rest.h"
 #include "storage/whole.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 #include "tests/support/synthetic_real_run.h"
 
 namespace swarmsmith {
@@ -21,9 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using sqlite::Connection;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 using Cells = std::vector<std::string>;
 
 const auto kUnwatched = [](std::int64_t, std::int64_t) {};
@@ -35,9 +32,7 @@ struct OfOthers : testing::Test {
   SyntheticCampaign campaign = synthetic_campaign({.designs = 2, .iterations = 2});
 
   void make_store() {
-    auto store = open_store(path, campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
+    auto store = filled_store(path, campaign);
     CommandRow command{
         .number = 1, .kind = CommandKind::Extend, .design = {1}, .budget = 10, .who = "a@b"};
     store->append({Row(command)});
@@ -103,9 +98,8 @@ TEST_P(ForeignTest, IsNamedAndNothingIsWritten) {
   const std::string said = refusal(path);
   EXPECT_THAT(said, HasSubstr("not as Swarmsmith made it"));
   EXPECT_THAT(said, HasSubstr(GetParam().named));
-  const auto at_rest = StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse);
-  ASSERT_FALSE(at_rest);
-  EXPECT_EQ(at_rest.error().kind, ErrorKind::Corrupt);
+  EXPECT_EQ(why_not(StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse)).kind,
+            ErrorKind::Corrupt);
 }
 
 TEST_P(ForeignTest, IsLeftOutOfACopyThatGoesOn) {
@@ -144,9 +138,8 @@ TEST_F(OfOthers, OldStoresAreComparedWithTheTablesOfTheirSchema) {
     campaign.designs.clear();
     change(old, "CREATE TRIGGER t AFTER INSERT ON evaluation BEGIN SELECT 1; END");
     EXPECT_THAT(refusal(old), HasSubstr("trigger t"));
-    const auto made = back_up(old, folder / fmt::format("new-{}.db", schema), kUnwatched);
-    ASSERT_TRUE(made) << to_string(made.error());
-    EXPECT_EQ(made->digest, digest_of(old));
+    const auto made = value_of(back_up(old, folder / fmt::format("new-{}.db", schema), kUnwatched));
+    EXPECT_EQ(made.digest, digest_of(old));
     change(old, "DROP TRIGGER t");
     const auto store = opened(old);
     EXPECT_TRUE(store) << to_string(store.error());
@@ -165,9 +158,8 @@ TEST_F(OfOthers, ReadersUseOurViewsWhateverTextTheFileHas) {
   EXPECT_EQ(cells_of(*reader, "SELECT * FROM v_designs"), designs);
   EXPECT_THAT(cells_of(*reader, "SELECT * FROM v_leaderboard"), Not(IsEmpty()));
   const auto nothing = [](const auto&) {};
-  const auto theirs = reader->query("SELECT * FROM v_laboratory", {}, nothing, nothing);
-  ASSERT_FALSE(theirs);
-  EXPECT_THAT(theirs.error().message, HasSubstr("prohibited"));
+  EXPECT_THAT(complaint_of(reader->query("SELECT * FROM v_laboratory", {}, nothing, nothing)),
+              HasSubstr("prohibited"));
   std::string count;
   EXPECT_TRUE(reader->query("SELECT * FROM v_laboratory", {.views_of_file = true}, nothing,
                             [&](const auto& cells) { count = cells[0].text; }));
@@ -182,17 +174,14 @@ TEST_F(OfOthers, AViewInPlaceOfATableIsRefusedToReaders) {
       "PRAGMA foreign_keys = OFF; ALTER TABLE event RENAME TO events; CREATE VIEW event AS WITH"
       " RECURSIVE n(seq) AS (SELECT 1 UNION ALL SELECT seq + 1 FROM n) SELECT seq, '' AS time, ''"
       " AS severity, '' AS kind, '' AS text FROM n");
-  const auto reader = StoreReader::open(path);
-  ASSERT_FALSE(reader);
-  EXPECT_THAT(reader.error().message, HasSubstr("table event is not as Swarmsmith made it"));
+  EXPECT_THAT(complaint_of(StoreReader::open(path)),
+              HasSubstr("table event is not as Swarmsmith made it"));
 }
 
 TEST_F(OfOthers, NamesOfAnyLengthAreRefused) {
   make_store();
   change(path, "UPDATE design SET mission = printf('%.100000c', 'm')");
-  const auto reader = StoreReader::open(path);
-  ASSERT_FALSE(reader);
-  EXPECT_THAT(reader.error().message, HasSubstr("100000 bytes"));
+  EXPECT_THAT(complaint_of(StoreReader::open(path)), HasSubstr("100000 bytes"));
 }
 
 // --- rows that are those of a commit ---
@@ -312,9 +301,7 @@ TEST_F(OfOthers, ChangedRealRunsAreFoundAndNamed) {
     SCOPED_TRACE(sql);
     fs::copy_file(whole, path, fs::copy_options::overwrite_existing);
     change(path, sql);
-    const auto rows = check_rows(path);
-    ASSERT_FALSE(rows);
-    EXPECT_THAT(rows.error().message, HasSubstr(named));
+    EXPECT_THAT(complaint_of(check_rows(path)), HasSubstr(named));
     EXPECT_THAT(refusal(path), HasSubstr(named));
   }
 }
@@ -406,7 +393,7 @@ TEST_F(OfOthers, ACopyInPartsIsRefusedOrAStateThatTheCampaignHad) {
         EXPECT_EQ(store.error().kind, ErrorKind::Corrupt) << to_string(store.error());
       } else {
         ++gone_on;
-        EXPECT_THAT(digests, testing::Contains(digest_of(copy)));
+        EXPECT_THAT(digests, Contains(digest_of(copy)));
       }
     }
   }

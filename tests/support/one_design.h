@@ -1,14 +1,13 @@
 #pragma once
 
-#include <stdexcept>
-
 #include "coordinator/campaign/campaign_file.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 
 /// A campaign of one design: aggregation, watermelon, 2,000 experiments.
 inline Campaign one_design_campaign() {
-  auto campaign = parse_campaign(R"(format = 1
+  return value_of(parse_campaign(R"(format = 1
 [campaign]
 name = "demo"
 store = "demo.db"
@@ -19,9 +18,7 @@ name = "watermelon"
 [race]
 max_experiments = 2_000
 )",
-                                 "demo.toml");
-  if (!campaign) throw std::logic_error(campaign.error().front().message);
-  return std::move(*campaign);
+                                 "demo.toml"));
 }
 
 }  // namespace swarmsmith

@@ -2,6 +2,9 @@
 
 #include <stdlib.h>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
 #include <string>
 
 namespace swarmsmith {
@@ -26,5 +29,18 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// All bytes of a file, which has to be there.
+inline std::string whole_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error("cannot read " + file.string());
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A program of the shell, which may be started.
+inline void write_script(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file) << "#!/bin/sh\n" << text;
+  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+}
 
 }  // namespace swarmsmith

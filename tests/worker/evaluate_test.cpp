@@ -1,7 +1,5 @@
 #include "worker/evaluate.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 
 #include "proto/scenario/scenario.h"
@@ -9,6 +7,7 @@
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -35,8 +34,7 @@ LeasedTask item(std::int64_t seed, const std::string& machine = kMachine) {
 
 TEST(Evaluate, GivesWhatTheSimulatorGives) {
   const WorkerScenario scenario = short_aggregation();
-  const Expected<Evaluator> evaluator = make_evaluators()(to_bytes({scenario}));
-  ASSERT_TRUE(evaluator);
+  const auto evaluator = value_of(make_evaluators()(to_bytes({scenario})));
   const Machine machine = *parse_machine(kMachine, watermelon());
   for (std::int64_t seed = 1; seed <= 5; ++seed) {
     const Instance instance = *instance_of(scenario.missions[0], seed);
@@ -46,7 +44,7 @@ TEST(Evaluate, GivesWhatTheSimulatorGives) {
                                               .mission = scenario.missions[0],
                                               .instance = instance,
                                               .seed = seed});
-    const Result result = (*evaluator)(item(seed));
+    const Result result = (evaluator)(item(seed));
     ASSERT_EQ(result.failure, "");
     EXPECT_EQ(result.measured.score, wanted.score);
     EXPECT_EQ(result.measured.state_digest, wanted.state_digest);
@@ -59,8 +57,7 @@ TEST(Evaluate, RunsAMethodWithItsTurnClock) {
   scenario.methods = {{.flavour = "watermelon"}, {"watermelon", TurnClock::Seconds}};
   scenario.profile = *built_in_profile("pseudo-reality");  // control periods below 0.1 s
   const std::string bytes = to_bytes({scenario});
-  const Expected<Evaluator> evaluator = make_evaluators()(bytes);
-  ASSERT_TRUE(evaluator);
+  const auto evaluator = value_of(make_evaluators()(bytes));
   const Machine machine = *parse_machine(kMachine, watermelon());
   const Instance instance = *instance_of(scenario.missions[0], 1);
   for (const std::size_t method : {0U, 1U}) {
@@ -75,15 +72,14 @@ TEST(Evaluate, RunsAMethodWithItsTurnClock) {
                   .seed = 1});
     LeasedTask work = item(1);
     work.method = static_cast<std::uint32_t>(method);
-    EXPECT_EQ((*evaluator)(work).measured.state_digest, wanted.state_digest);
+    EXPECT_EQ((evaluator)(work).measured.state_digest, wanted.state_digest);
   }
 }
 
 TEST(Evaluate, RunsATestUnderTheProfileThatItNames) {
   WorkerScenario scenario = short_aggregation();
   scenario.test_profiles = {*built_in_profile("argos3"), *built_in_profile("pseudo-reality")};
-  const Expected<Evaluator> evaluator = make_evaluators()(to_bytes({scenario}));
-  ASSERT_TRUE(evaluator);
+  const auto evaluator = value_of(make_evaluators()(to_bytes({scenario})));
   const Machine machine = *parse_machine(kMachine, watermelon());
   const std::array profiles = {scenario.profile, scenario.test_profiles[0],
                                scenario.test_profiles[1]};
@@ -96,17 +92,16 @@ TEST(Evaluate, RunsATestUnderTheProfileThatItNames) {
                                               .seed = 1});
     LeasedTask work = item(1);
     work.profile = i;
-    EXPECT_EQ((*evaluator)(work).measured.state_digest, wanted.state_digest) << profiles[i].name;
+    EXPECT_EQ((evaluator)(work).measured.state_digest, wanted.state_digest) << profiles[i].name;
   }
   LeasedTask unknown = item(1);
   unknown.profile = 3;
-  EXPECT_NE((*evaluator)(unknown).failure.find("profile"), std::string::npos);
+  EXPECT_NE((evaluator)(unknown).failure.find("profile"), std::string::npos);
 }
 
 TEST(Evaluate, FailsWithASentence) {
-  const Expected<Evaluator> evaluator = make_evaluators()(to_bytes({short_aggregation()}));
-  ASSERT_TRUE(evaluator);
-  EXPECT_NE((*evaluator)(item(1, "--nstates nonsense")).failure, "");
+  const auto evaluator = value_of(make_evaluators()(to_bytes({short_aggregation()})));
+  EXPECT_NE((evaluator)(item(1, "--nstates nonsense")).failure, "");
   // The first number that the scenario does not have, and one far beyond.
   for (const std::uint32_t number : {1U, 5U}) {
     LeasedTask of_mission = item(1);
@@ -116,8 +111,7 @@ TEST(Evaluate, FailsWithASentence) {
     LeasedTask of_profile = item(1);
     of_profile.profile = number;
     for (const LeasedTask& strange : {of_mission, of_method, of_profile})
-      EXPECT_NE((*evaluator)(strange).failure.find("the scenario does not have"),
-                std::string::npos);
+      EXPECT_NE((evaluator)(strange).failure.find("the scenario does not have"), std::string::npos);
   }
 }
 

@@ -1,6 +1,5 @@
 #include "worker/pool.h"
 
-#include <gtest/gtest.h>
 #include <atomic>
 #include <chrono>
 #include <limits>
@@ -8,6 +7,8 @@
 #include <semaphore>
 #include <set>
 #include <stdexcept>
+
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -117,9 +118,7 @@ TEST_F(Pools, WakeForTheFirstResultThoughThereIsMuchWorkLeft) {
 
 TEST_F(Pools, SayWhyAScenarioCannotBeUsed) {
   Pool pool(1, make_obedient, [] {});
-  const Expected<void> used = pool.use("bad");
-  ASSERT_FALSE(used);
-  EXPECT_EQ(used.error().message, "a bad scenario");
+  EXPECT_EQ(why_not(pool.use("bad")).message, "a bad scenario");
 }
 
 }  // namespace

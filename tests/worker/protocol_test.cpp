@@ -1,12 +1,12 @@
 #include "worker/protocol.h"
 
-#include <gtest/gtest.h>
 #include <algorithm>
 #include <deque>
 #include <numeric>
 
 #include "proto/task_messages.h"
 #include "proto/wire.pb.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -28,10 +28,9 @@ class Protocol : public ::testing::Test {
     for (WorkerAction& action : protocol.take_actions()) {
       if (auto* send = std::get_if<SendToCoordinator>(&action)) {
         google::protobuf::Arena arena;
-        const auto message = decode_to_coordinator(send->frame, arena);
-        ASSERT_TRUE(message);
-        said.push_back(**message);
-        incarnation = (*message)->incarnation();
+        const auto message = value_of(decode_to_coordinator(send->frame, arena));
+        said.push_back(*message);
+        incarnation = message->incarnation();
       }
       if (auto* run = std::get_if<RunItems>(&action)) {
         for (LeasedTask& item : run->items)

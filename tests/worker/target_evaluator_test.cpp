@@ -1,10 +1,9 @@
 #include "worker/target_evaluator.h"
 
-#include <gtest/gtest.h>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 #include "worker/evaluate.h"
 
@@ -27,8 +26,7 @@ class TargetEvaluators : public ::testing::Test {
     allowed.programs = {*allowed_program(scenario.target->runner)};
   }
   void script(const std::string& name, const std::string& text) {
-    std::ofstream(folder / name) << "#!/bin/sh\n" << text;
-    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
+    write_script(folder / name, text);
   }
   Expected<Evaluator> make() { return make_evaluators(allowed)(to_bytes({scenario})); }
   Result evaluate(const LeasedTask& item) {
@@ -36,10 +34,7 @@ class TargetEvaluators : public ::testing::Test {
     if (!evaluator) return {.failure = to_string(evaluator.error())};
     return (*evaluator)(item);
   }
-  std::string log() const {
-    std::ifstream in(folder / "log");
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string log() const { return whole_file(folder / "log"); }
   /// Of the third configuration of the second design.
   static LeasedTask item(std::int32_t purpose = 0) {
     LeasedTask made;
@@ -142,13 +137,12 @@ TEST_F(TargetEvaluators, RunNothingThatIsNotAllowed) {
 TEST_F(TargetEvaluators, SeeThroughLinks) {
   std::filesystem::create_symlink(folder / "target-runner", folder / "link");
   scenario.target->runner = (folder / "link").string();
-  const auto evaluator = make();
-  ASSERT_TRUE(evaluator);
-  EXPECT_EQ((*evaluator)(item()).failure, "");
+  const auto evaluator = value_of(make());
+  EXPECT_EQ((evaluator)(item()).failure, "");
   // What the link means is looked at before every call.
   std::filesystem::remove(folder / "link");
   std::filesystem::create_symlink("/bin/true", folder / "link");
-  EXPECT_TRUE(mentions((*evaluator)(item()).failure, "may not"));
+  EXPECT_TRUE(mentions((evaluator)(item()).failure, "may not"));
 }
 
 /// Makes the link mean the one and the other in turn, as fast as it can.
@@ -176,15 +170,14 @@ TEST_F(TargetEvaluators, RunTheFileThatWasCheckedWhateverALinkMeansThen) {
     const auto bad = folder / (rest.empty() ? "bad/run" : "bad");
     std::filesystem::create_symlink(good, folder / link);
     scenario.target->runner = (folder / link).string() + rest;
-    const auto evaluator = make();
-    ASSERT_TRUE(evaluator);
+    const auto evaluator = value_of(make());
     std::jthread swapper([&, &changed = link](const std::stop_token& over) {
       swap_until(over, folder / changed, good, bad);
     });
     int ran = 0;
     int refused = 0;
     while (ran < 100 || refused < 100) {
-      const Result result = (*evaluator)(item());
+      const Result result = (evaluator)(item());
       result.failure.empty() ? ++ran : ++refused;
       if (result.failure.empty()) {
         ASSERT_EQ(result.measured.score, -2.5);
@@ -224,10 +217,9 @@ TEST_F(TargetEvaluators, NeedTheFolder) {
 TEST_F(TargetEvaluators, GiveUpWhatRunsWhenAnotherScenarioComes) {
   script("target-runner", "exec sleep 1000\n");
   EvaluatorFactory factory = make_evaluators(allowed);
-  const auto evaluator = factory(to_bytes({scenario}));
-  ASSERT_TRUE(evaluator);
+  const auto evaluator = value_of(factory(to_bytes({scenario})));
   std::string reason;
-  std::jthread slot([&] { reason = (*evaluator)(item()).failure; });
+  std::jthread slot([&] { reason = (evaluator)(item()).failure; });
   ASSERT_TRUE(factory(to_bytes({scenario})));  // the next slot's: nothing happens
   scenario.campaign_digest = "other";
   ASSERT_TRUE(factory(to_bytes({scenario})));

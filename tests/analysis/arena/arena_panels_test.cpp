@@ -1,16 +1,12 @@
 #include "analysis/arena/arena_panels.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 
 #include "tests/analysis/support/svg_texts.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// Runs of three robots in a square of 2 m, where the second one does the longest things.
 ArenaPanels four_runs(double width_mm) {

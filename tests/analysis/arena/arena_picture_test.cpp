@@ -1,16 +1,12 @@
 #include "analysis/arena/arena_picture.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include "sim/mission/mission.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 std::size_t count_of(const std::string& text, const std::string& part) {
   std::size_t count = 0;

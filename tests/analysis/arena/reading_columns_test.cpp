@@ -1,16 +1,14 @@
 #include "analysis/arena/reading_columns.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <limits>
 #include <set>
 
+#include "tests/support/checks.h"
+
 namespace swarmsmith {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsSupersetOf;
 
 TEST(SensorNames, NameEverySensorOnce) {
@@ -96,7 +94,7 @@ TEST(ReadingColumns, OfAllSensorsAreDistinctAndFilled) {
   std::string line;
   columns.append_cells(line, &readings);
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(line, ',')), columns.names().size());
-  EXPECT_THAT(line, testing::Not(HasSubstr(",,")));
+  EXPECT_THAT(line, Not(HasSubstr(",,")));
   EXPECT_THAT(line, HasSubstr(",-inf,0.25,"));
 }
 

@@ -1,38 +1,26 @@
-#include <gmock/gmock.h>
-
 #include "analysis/comparison/comparison.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 /// A store with finished designs whose winners were tested.
-struct ComparisonStoreTest : testing::Test {
-  TemporaryFolder folder;
-  SyntheticCampaign campaign = synthetic_campaign({.designs = 3, .tests = 4});
-  std::unique_ptr<StoreReader> reader;
-
-  ComparisonStoreTest() {
-    auto store = open_store(folder / "s.db", campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
-    store.reset();
-    reader = open_reader(folder / "s.db");
-  }
+struct ComparisonStoreTest : FilledStore {
+  ComparisonStoreTest() : FilledStore(synthetic_campaign({.designs = 3, .tests = 4})) {}
 };
 
 TEST_F(ComparisonStoreTest, SummarisesTheWinnersTests) {
-  const auto comparison = compare(*reader, {.by = CompareBy::Mission});
-  ASSERT_TRUE(comparison);
+  const auto comparison = value_of(compare(*reader, {.by = CompareBy::Mission}));
   std::size_t runs = 0;
-  for (const ComparedGroup& group : comparison->groups)
+  for (const ComparedGroup& group : comparison.groups)
     runs += group.runs;
   EXPECT_EQ(runs, 12U);
   const auto mean = cells_of(
       *reader, "SELECT avg(m) FROM (SELECT avg(score) AS m FROM v_design_scores WHERE mission = '" +
-                   comparison->groups.front().mission + "' AND method = '" +
-                   comparison->groups.front().method + "' GROUP BY design)");
-  EXPECT_NEAR(comparison->groups.front().summary.mean, std::stod(mean.front().front()), 1e-9);
+                   comparison.groups.front().mission + "' AND method = '" +
+                   comparison.groups.front().method + "' GROUP BY design)");
+  EXPECT_NEAR(comparison.groups.front().summary.mean, std::stod(mean.front().front()), 1e-9);
 }
 
 /// Two methods of one design with a budget of 1,000, which used so much.
@@ -66,44 +54,39 @@ Expected<Comparison> compared_budgets(const std::filesystem::path& file, std::in
 }
 
 TEST_F(ComparisonStoreTest, SaysWhichMethodUsedMuchLessThanItsBudget) {
-  const auto comparison = compared_budgets(folder / "two.db", 960, 480, CompareBy::Method);
-  ASSERT_TRUE(comparison) << to_string(comparison.error());
-  EXPECT_THAT(
-      comparison->notes,
-      testing::Contains("other used 48 % of its experiments (480 of 1000): compare with what "
-                        "the others used"));
-  EXPECT_THAT(comparison->notes, testing::Not(testing::Contains(testing::HasSubstr("all used"))));
+  const auto comparison =
+      value_of(compared_budgets(folder / "two.db", 960, 480, CompareBy::Method));
+  EXPECT_THAT(comparison.notes,
+              Contains("other used 48 % of its experiments (480 of 1000): compare with what "
+                       "the others used"));
+  EXPECT_THAT(comparison.notes, Not(Contains(HasSubstr("all used"))));
   EXPECT_THAT(compared_budgets(folder / "by_mission.db", 960, 480, CompareBy::Mission)->notes,
-              testing::Not(testing::Contains(testing::HasSubstr("of its experiments"))));
+              Not(Contains(HasSubstr("of its experiments"))));
 }
 
 TEST_F(ComparisonStoreTest, SaysWhichMethodWasExtended) {
-  const auto comparison = compared_budgets(folder / "two.db", 1000, 2300, CompareBy::Method);
-  ASSERT_TRUE(comparison) << to_string(comparison.error());
-  EXPECT_THAT(comparison->notes,
-              testing::Contains("other used 230 % of its experiments (2300 of 1000), since it was "
-                                "extended: compare with what the others used"));
-  EXPECT_THAT(comparison->notes, testing::Not(testing::Contains(testing::HasSubstr("all used"))));
+  const auto comparison =
+      value_of(compared_budgets(folder / "two.db", 1000, 2300, CompareBy::Method));
+  EXPECT_THAT(comparison.notes,
+              Contains("other used 230 % of its experiments (2300 of 1000), since it was "
+                       "extended: compare with what the others used"));
+  EXPECT_THAT(comparison.notes, Not(Contains(HasSubstr("all used"))));
 }
 
 TEST_F(ComparisonStoreTest, NamesWhatThereIsWhenSomethingElseIsAskedFor) {
-  const auto mission = compare(*reader, {.missions = {"nowhere"}});
-  ASSERT_FALSE(mission);
-  EXPECT_EQ(mission.error().kind, ErrorKind::NotFound);
-  EXPECT_EQ(mission.error().where, "--mission");
-  EXPECT_THAT(mission.error().message, testing::HasSubstr("`nowhere`; there are "));
-  const auto source = compare(*reader, {.source = "real"});
-  ASSERT_FALSE(source);
-  EXPECT_THAT(source.error().message, testing::HasSubstr("there are rvr"));
+  const Error mission = why_not(compare(*reader, {.missions = {"nowhere"}}));
+  EXPECT_EQ(mission.kind, ErrorKind::NotFound);
+  EXPECT_EQ(mission.where, "--mission");
+  EXPECT_THAT(mission.message, HasSubstr("`nowhere`; there are "));
+  EXPECT_THAT(complaint_of(compare(*reader, {.source = "real"})), HasSubstr("there are rvr"));
 }
 
 TEST_F(ComparisonStoreTest, AStoreWithoutAFinishedDesignSaysHowToGetScores) {
   const SyntheticCampaign other = synthetic_campaign({.designs = 1});
   open_store(folder / "empty.db", other).reset();
-  const auto comparison = compare(*open_reader(folder / "empty.db"), {});
-  ASSERT_FALSE(comparison);
-  EXPECT_EQ(comparison.error().kind, ErrorKind::NotFound);
-  EXPECT_THAT(comparison.error().message, testing::HasSubstr("swarmsmith ls designs"));
+  const Error comparison = why_not(compare(*open_reader(folder / "empty.db"), {}));
+  EXPECT_EQ(comparison.kind, ErrorKind::NotFound);
+  EXPECT_THAT(comparison.message, HasSubstr("swarmsmith ls designs"));
 }
 
 }  // namespace

@@ -1,15 +1,11 @@
 #include "analysis/comparison/comparison_tables.h"
 
-#include <gmock/gmock.h>
-
 #include "analysis/comparison/comparison_text.h"
 #include "tests/analysis/comparison/scores.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 std::vector<DesignScore> scores() {
   return records_of({{.design = 1, .method = "a, b", .scores = {3}},

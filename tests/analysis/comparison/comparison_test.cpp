@@ -1,18 +1,11 @@
 #include "analysis/comparison/comparison.h"
 
-#include <gmock/gmock.h>
-
 #include "analysis/comparison/paper_text.h"
 #include "tests/analysis/comparison/scores.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 /// Six designs of two missions, each in simulation and reality; real ones are worse.
 std::vector<DesignScore> in_two_sources() {

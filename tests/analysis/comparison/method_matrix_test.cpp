@@ -1,15 +1,10 @@
 #include "analysis/comparison/method_matrix.h"
 
-#include <gmock/gmock.h>
-
 #include "tests/analysis/comparison/scores.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 using Table = std::vector<std::vector<bool>>;
 
@@ -117,7 +112,7 @@ TEST(MethodMatrix, SaysWhereValuesAreTooFewForOtherLetters) {
                           "correction even the clearest difference would have a p of 0.0857; that "
                           "methods share a letter says nothing there"));
   // All six pairs are corrected together there.
-  EXPECT_THAT(comparison.pairs.front().notes, testing::Contains(HasSubstr("a p of 0.171")));
+  EXPECT_THAT(comparison.pairs.front().notes, Contains(HasSubstr("a p of 0.171")));
 }
 
 TEST(MethodMatrix, OfOneMethodHasNoLetters) {

@@ -1,17 +1,13 @@
 #include "analysis/drawing/axes.h"
 
-#include <gmock/gmock.h>
-
 #include "analysis/drawing/figure_style.h"
 #include "analysis/drawing/legend.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using testing::DoubleEq;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
 using testing::Pointwise;
 
 TEST(Axes, RangeOfEqualValuesIsWideEnoughToDraw) {

@@ -1,16 +1,11 @@
 #include "analysis/drawing/svg.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
+
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 TEST(Svg, IsAFileInMillimetres) {
   const std::string text = Svg(84, 97.5, "a < b", "\"c\" & d\x01").finish();

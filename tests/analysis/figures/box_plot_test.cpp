@@ -1,17 +1,12 @@
 #include "analysis/figures/box_plot.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 
 #include "tests/analysis/support/svg_texts.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::Contains;
-using testing::IsEmpty;
-using testing::Not;
 
 std::vector<std::string> words_of(const std::string& svg) {
   std::vector<std::string> words;
@@ -85,7 +80,7 @@ TEST(BoxPlot, CountsAreWrittenWhereAllIsTied) {
   EXPECT_THAT(text_problems(svg), IsEmpty());
   // The points stand beside each other.
   const std::string data = svg.substr(svg.find("d=\"M", svg.find("h0") - 20));
-  EXPECT_NE(data.find("h0M"), std::string::npos);
+  EXPECT_THAT(data, HasSubstr("h0M"));
   EXPECT_NE(data.substr(4, data.find("h0") - 4),
             data.substr(data.find("h0M") + 3,
                         data.find("h0", data.find("h0M") + 3) - data.find("h0M") - 3));
@@ -94,7 +89,7 @@ TEST(BoxPlot, CountsAreWrittenWhereAllIsTied) {
 TEST(BoxPlot, CountsOfValuesThatDoNotRepeatAreNot) {
   BoxPlot plot{.title = "No ties", .details = {}};
   plot.panels = {{"m", {{"a", 0, {1, 2, 3, 4.5}}}}};
-  EXPECT_THAT(words_of(draw(plot)), Not(Contains(testing::StartsWith("\u00d7"))));
+  EXPECT_THAT(words_of(draw(plot)), Not(Contains(StartsWith("\u00d7"))));
 }
 
 TEST(BoxPlot, PointsDependOnTheValuesAlone) {
@@ -152,7 +147,7 @@ TEST(BoxPlot, OfAStudyFitsOnAPageWithWholeNames) {
       EXPECT_THAT(shape_problems(svg), IsEmpty()) << width;
       EXPECT_LE(height_of(svg), 240) << width;
       EXPECT_EQ(dots_in(svg), 420U);
-      EXPECT_THAT(words_of(svg), Not(Contains(testing::HasSubstr("\u2026")))) << width;
+      EXPECT_THAT(words_of(svg), Not(Contains(HasSubstr("\u2026")))) << width;
       for (const char* method : {"cma-es", "evostick", "vanilla"})
         EXPECT_EQ(std::ranges::count(words_of(svg), method), 3) << width;
     }

@@ -1,18 +1,14 @@
 #include "analysis/figures/convergence_plot.h"
 
-#include <gmock/gmock.h>
-
 #include <fmt/format.h>
 
 #include "analysis/drawing/svg.h"
 #include "analysis/figures/internal/stairs.h"
+#include "tests/support/checks.h"
 #include "tests/support/drawn_page.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 ConvergencePlot plot_of(std::size_t panels, std::size_t lines, double width_mm = 84) {
   ConvergencePlot plot{.title = "Convergence",

@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <set>
 
@@ -9,15 +7,10 @@
 #include "analysis/figures/figure.h"
 #include "tests/analysis/support/svg_texts.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::Contains;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::StartsWith;
 
 std::ptrdiff_t rows_of(const Figure& figure) {
   return std::ranges::count(figure.csv, '\n') - 1;
@@ -30,9 +23,7 @@ struct FigureKinds : testing::Test {
   std::unique_ptr<StoreReader> reader;
 
   FigureKinds() {
-    auto store = open_store(folder / "s.db", campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
+    auto store = filled_store(folder / "s.db", campaign);
     store->flush();
     const auto known = designs(*open_reader(folder / "s.db"), {});
     for (const DesignRecord& design : *known) {
@@ -136,9 +127,9 @@ TEST_F(FigureKinds, MachinesWithoutANameAreASheetOfAllWinners) {
     EXPECT_THAT(sheet.svg, HasSubstr(fmt::format(">d{} c{}<", row[0], row[1])));
     EXPECT_THAT(sheet.tex, HasSubstr(fmt::format("% d{} c{}: ", row[0], row[1])));
     const Figure alone = made("machine", {.filter = {.design = DesignId{std::stoll(row[0])}}});
-    EXPECT_THAT(alone.csv, testing::StartsWith("state,behaviour"));
+    EXPECT_THAT(alone.csv, StartsWith("state,behaviour"));
   }
-  EXPECT_THAT(text_problems(sheet.svg), testing::IsEmpty());
+  EXPECT_THAT(text_problems(sheet.svg), IsEmpty());
 }
 
 TEST_F(FigureKinds, WhatTheStoreDoesNotHaveIsSaid) {
@@ -153,10 +144,9 @@ TEST(FigureOptionsOfKinds, ThatMeanNothingAreRefused) {
   const FigureKind* modules = find_figure_kind("modules");
   ASSERT_NE(modules, nullptr);
   EXPECT_FALSE(refused_option(*modules, {.filter = {.mission = "m", .method = "w"}}));
-  const auto refused = refused_option(*modules, {.by = "source"});
-  ASSERT_TRUE(refused);
-  EXPECT_EQ(refused->where, "--by");
-  EXPECT_THAT(refused->message, HasSubstr("--width, --paper, --mission, --method"));
+  const auto refused = value_of(refused_option(*modules, {.by = "source"}));
+  EXPECT_EQ(refused.where, "--by");
+  EXPECT_THAT(refused.message, HasSubstr("--width, --paper, --mission, --method"));
   EXPECT_TRUE(refused_option(*modules, {.iteration = 3}));
   EXPECT_TRUE(refused_option(*modules, {.candidate = CandidateId{3}}));
 }

@@ -1,20 +1,15 @@
 #include "analysis/figures/module_chart.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "analysis/drawing/svg.h"
 #include "tests/analysis/support/svg_texts.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 /// Tables 7.1 to 7.3 of the thesis.
 ModuleChart thesis_tables() {

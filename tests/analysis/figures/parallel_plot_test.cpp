@@ -1,7 +1,5 @@
 #include "analysis/figures/parallel_plot.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <limits>
 
@@ -9,13 +7,11 @@
 
 #include "analysis/drawing/axes.h"
 #include "base/rng.h"
+#include "tests/support/checks.h"
 #include "tests/support/drawn_page.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 const double kNotActive = std::numeric_limits<double>::quiet_NaN();
 

@@ -1,18 +1,14 @@
 #include "analysis/figures/internal/parameter_table.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/figures/internal/category_colors.h"
 #include "analysis/figures/internal/parameter_words.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 const Flavour* find_flavour_named(std::string_view name) {
   const auto all = all_flavours();
@@ -69,11 +65,10 @@ TEST(ParameterTable, MovementIsTheTotalVariationOfTheThirds) {
 TEST(ParameterTable, NamesThatAreNotThereAreToldWithWhatIs) {
   const ParameterTable table = small_table();
   EXPECT_THAT(named_columns(table, "tau, s0", 9).value(), ElementsAre(3U, 0U));
-  const auto wrong = named_columns(table, "s0,speed", 9);
-  ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().kind, ErrorKind::BadInput);
-  EXPECT_THAT(wrong.error().message, HasSubstr("speed"));
-  EXPECT_THAT(wrong.error().message, HasSubstr("same, size, tau"));
+  const Error wrong = why_not(named_columns(table, "s0,speed", 9));
+  EXPECT_EQ(wrong.kind, ErrorKind::BadInput);
+  EXPECT_THAT(wrong.message, HasSubstr("speed"));
+  EXPECT_THAT(wrong.message, HasSubstr("same, size, tau"));
   EXPECT_THAT(named_columns(table, "s0,tau,size", 2).error().message, HasSubstr("at most 2"));
   EXPECT_TRUE(named_columns(table, "", 2)->empty());
 }

@@ -1,7 +1,5 @@
 #include "analysis/figures/race_plot.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,14 +7,13 @@
 #include "analysis/drawing/axes.h"
 #include "analysis/figures/internal/cell_runs.h"
 #include "base/rng.h"
+#include "tests/support/checks.h"
 #include "tests/support/drawn_page.h"
 
 namespace swarmsmith {
 namespace {
 
 using State = RacePlot::Cell::State;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 constexpr std::size_t kScaleBoxes = 7;  ///< of the legend, one a colour
 const std::string kDrop = "#d55e00";

@@ -1,17 +1,12 @@
 #include "analysis/figures/rank_plot.h"
 
-#include <gmock/gmock.h>
-
 #include "analysis/figures/figure.h"
 #include "tests/analysis/support/svg_texts.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 RankPlot plot_of(std::size_t rows) {
   RankPlot plot{.title = "Ranks by method"};
@@ -56,10 +51,7 @@ struct RanksFigureTest : testing::Test {
       design.mission = design.id.value <= 4 ? "aggregation" : "grid_exploration";
       design.method = design.id.value % 2 == 1 ? first : second;
     }
-    auto store = open_store(folder / "s.db", campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
-    store.reset();
+    fill_store(folder / "s.db", campaign);
     return open_reader(folder / "s.db");
   }
 
@@ -70,14 +62,13 @@ struct RanksFigureTest : testing::Test {
 
 TEST_F(RanksFigureTest, RanksMethodsWhereThereAreSeveral) {
   const auto store = store_with("chocolate", "watermelon");
-  const auto figure = make(*store, {});
-  ASSERT_TRUE(figure) << to_string(figure.error());
-  EXPECT_THAT(figure->svg, HasSubstr("Ranks by method"));
-  EXPECT_THAT(figure->svg, HasSubstr("2 missions in rvr: aggregation"));
-  EXPECT_THAT(figure->svg, HasSubstr("chocolate"));
-  EXPECT_THAT(figure->csv, HasSubstr("\nrvr,chocolate,"));
-  EXPECT_THAT(text_problems(figure->svg), IsEmpty());
-  EXPECT_EQ(figure->svg, make(*store, {})->svg);
+  const auto figure = value_of(make(*store, {}));
+  EXPECT_THAT(figure.svg, HasSubstr("Ranks by method"));
+  EXPECT_THAT(figure.svg, HasSubstr("2 missions in rvr: aggregation"));
+  EXPECT_THAT(figure.svg, HasSubstr("chocolate"));
+  EXPECT_THAT(figure.csv, HasSubstr("\nrvr,chocolate,"));
+  EXPECT_THAT(text_problems(figure.svg), IsEmpty());
+  EXPECT_EQ(figure.svg, make(*store, {})->svg);
 }
 
 TEST_F(RanksFigureTest, SaysNothingOfADifferenceThatTheTestDoesNotShow) {
@@ -89,10 +80,9 @@ TEST_F(RanksFigureTest, SaysNothingOfADifferenceThatTheTestDoesNotShow) {
 
 TEST_F(RanksFigureTest, SaysWhyThereIsNothingToRank) {
   const auto store = store_with("watermelon", "watermelon");
-  const auto figure = make(*store, {});
-  ASSERT_FALSE(figure);
-  EXPECT_EQ(figure.error().kind, ErrorKind::NotFound);
-  EXPECT_THAT(figure.error().message, HasSubstr("all scores have the same source rvr"));
+  const Error figure = why_not(make(*store, {}));
+  EXPECT_EQ(figure.kind, ErrorKind::NotFound);
+  EXPECT_THAT(figure.message, HasSubstr("all scores have the same source rvr"));
   EXPECT_THAT(make(*store, {.by = "method"}).error().message,
               HasSubstr("the same method watermelon"));
   EXPECT_EQ(make(*store, {.by = "mission"}).error().kind, ErrorKind::BadInput);

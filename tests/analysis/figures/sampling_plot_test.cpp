@@ -1,18 +1,15 @@
 #include "analysis/figures/sampling_plot.h"
 
-#include <gmock/gmock.h>
-
 #include <fmt/format.h>
 
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/svg.h"
 #include "analysis/figures/internal/category_colors.h"
+#include "tests/support/checks.h"
 #include "tests/support/drawn_page.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::IsEmpty;
 
 SamplingPlot::Panel behaviours(const std::string& name, std::size_t iterations) {
   SamplingPlot::Panel panel{.name = name, .categories = {"attraction", "repulsion", "stop"}};

@@ -1,19 +1,15 @@
 #include "analysis/figures/score_distribution.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 
 #include "analysis/drawing/svg.h"
 #include "analysis/figures/internal/score_grid.h"
 
 #include "tests/analysis/support/svg_texts.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::Contains;
-using testing::IsEmpty;
 
 std::size_t bars_of_color(const std::string& svg, const std::string& color) {
   std::size_t bars = 0;

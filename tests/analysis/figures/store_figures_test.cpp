@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -8,29 +6,15 @@
 #include "analysis/figures/figure.h"
 #include "analysis/figures/scatter_plot.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 #include "tests/support/drawn_page.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-
 /// The makers on a store: two designs of two missions, three iterations of seven steps.
-struct StoreFigures : testing::Test {
-  TemporaryFolder folder;
-  std::unique_ptr<StoreReader> reader;
-
-  StoreFigures() {
-    const SyntheticCampaign campaign = synthetic_campaign({.designs = 2, .iterations = 3});
-    auto store = open_store(folder / "s.db", campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
-    store.reset();
-    reader = open_reader(folder / "s.db");
-  }
-
+struct StoreFigures : FilledStore {
   Expected<Figure> make(std::string_view kind, const FigureOptions& options) {
     const FigureKind* found = find_figure_kind(kind);
     if (found == nullptr) return bad_input("no such kind");
@@ -39,9 +23,7 @@ struct StoreFigures : testing::Test {
 
   /// Of a figure that has to be there.
   Figure made(std::string_view kind, const FigureOptions& options = {.filter = {.design = {{1}}}}) {
-    const auto figure = make(kind, options);
-    EXPECT_TRUE(figure) << (figure ? "" : to_string(figure.error()));
-    return figure ? *figure : Figure{};
+    return value_of(make(kind, options));
   }
 
   std::string refusal(std::string_view kind, const FigureOptions& options) {
@@ -105,9 +87,7 @@ TEST_F(StoreFigures, ARaceThatGoesOnIsDrawnAsFarAsItIs) {
   begun.reset();
   reader = open_reader(folder / "begun.db");
   for (const char* kind : {"race", "parallel", "convergence"}) {
-    const auto none = make(kind, {});
-    ASSERT_FALSE(none) << kind;
-    EXPECT_EQ(none.error().kind, ErrorKind::NotFound) << kind;
+    EXPECT_EQ(why_not(make(kind, {})).kind, ErrorKind::NotFound) << kind;
   }
 }
 
@@ -139,9 +119,7 @@ TEST_F(StoreFigures, OneOfSeveralDesignsHasToBeNamed) {
     EXPECT_THAT(refusal(kind, {}), HasSubstr("--design d1")) << kind;
     // A mission that has one design is enough.
     EXPECT_TRUE(make(kind, {.filter = {.mission = "aggregation"}})) << kind;
-    const auto none = make(kind, {.filter = {.design = {{7}}}});
-    ASSERT_FALSE(none) << kind;
-    EXPECT_EQ(none.error().kind, ErrorKind::NotFound) << kind;
+    EXPECT_EQ(why_not(make(kind, {.filter = {.design = {{7}}}})).kind, ErrorKind::NotFound) << kind;
   }
 }
 
@@ -226,10 +204,9 @@ TEST_F(StoreFigures, AxesHaveTheNamesOfModules) {
 }
 
 TEST_F(StoreFigures, GapSaysWhatIsMissing) {
-  const auto none = make("gap", {});
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().kind, ErrorKind::NotFound);
-  EXPECT_THAT(none.error().message, HasSubstr("one source alone (rvr)"));
+  const Error none = why_not(make("gap", {}));
+  EXPECT_EQ(none.kind, ErrorKind::NotFound);
+  EXPECT_THAT(none.message, HasSubstr("one source alone (rvr)"));
 }
 
 TEST_F(StoreFigures, OfAPaperHaveNoTitleNorDetails) {

@@ -1,15 +1,10 @@
 #include "tests/analysis/support/svg_texts.h"
 
-#include <gmock/gmock.h>
-
 #include "analysis/drawing/svg.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 TEST(SvgTexts, HaveTheWidthOfTheirFont) {
   Svg svg(50, 20, "t", "d");

@@ -1,7 +1,5 @@
 #include "analysis/machines/controller_drawing.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 #include <regex>
@@ -12,14 +10,11 @@
 #include "sim/control/tree.h"
 #include "tests/analysis/machines/machines_to_draw.h"
 #include "tests/analysis/support/svg_texts.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 constexpr double kWidths[] = {60, 84, 110, 174};
 

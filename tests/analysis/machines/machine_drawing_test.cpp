@@ -1,18 +1,14 @@
 #include "analysis/machines/machine_drawing.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <regex>
 #include <sstream>
 
 #include "tests/analysis/machines/machines_to_draw.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 /// Explores until black, then stands; leaves again on green.
 Machine small_machine() {
@@ -121,14 +117,14 @@ MachineLayout with_an_unreachable_state() {
 
 TEST(MachineSvg, IsGreyWhereNoTransitionLeads) {
   const std::string whole = svg_of(small_layout(), "");
-  EXPECT_THAT(whole, testing::Not(HasSubstr("grey: ")));
+  EXPECT_THAT(whole, Not(HasSubstr("grey: ")));
   EXPECT_THAT(whole, HasSubstr(distinct_color(1)));
   const MachineLayout layout = with_an_unreachable_state();
   EXPECT_TRUE(layout.states[0].reachable);
   EXPECT_FALSE(layout.states[1].reachable);
   const std::string svg = svg_of(layout, "");
   EXPECT_THAT(svg, HasSubstr(">grey: no transition leads there<"));
-  EXPECT_THAT(svg, testing::Not(HasSubstr(distinct_color(1))));
+  EXPECT_THAT(svg, Not(HasSubstr(distinct_color(1))));
   std::istringstream tikz(tikz_of(layout));
   for (std::string line; std::getline(tikz, line);)
     EXPECT_TRUE(is_tikz_line(line)) << line;

@@ -1,56 +1,37 @@
 #include "analysis/figures/machine_figure.h"
 
-#include <gmock/gmock.h>
-
 #include "analysis/figures/figure.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::HasSubstr;
-using testing::StartsWith;
-
-struct MachineFigureTest : testing::Test {
-  TemporaryFolder folder;
-  SyntheticCampaign campaign = synthetic_campaign({.designs = 2, .iterations = 3});
-  std::unique_ptr<StoreReader> reader;
-
-  MachineFigureTest() {
-    auto store = open_store(folder / "s.db", campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
-    store.reset();
-    reader = open_reader(folder / "s.db");
-  }
-
+struct MachineFigureTest : FilledStore {
   Expected<Figure> make(const FigureOptions& options) {
     return find_figure_kind("machine")->make(*reader, options);
   }
 };
 
 TEST_F(MachineFigureTest, DrawsTheBestOfTheOneDesignThatIsNamed) {
-  const auto figure = make({.filter = {.design = DesignId{2}}});
-  ASSERT_TRUE(figure) << to_string(figure.error());
+  const auto figure = value_of(make({.filter = {.design = DesignId{2}}}));
   const auto best = *designs(*reader, {.design = DesignId{2}})->front().best;
-  EXPECT_THAT(figure->svg, HasSubstr("<title>d2 " + to_string(best) + ", "));
-  EXPECT_THAT(figure->tex, StartsWith("\\begin{tikzpicture}"));
-  EXPECT_THAT(figure->csv, StartsWith("state,behaviour,behaviour_parameters,transition,target,"
-                                      "condition,condition_parameters\n0,"));
-  const auto named = make({.candidate = best});
-  ASSERT_TRUE(named);
-  EXPECT_EQ(named->svg, figure->svg);
+  EXPECT_THAT(figure.svg, HasSubstr("<title>d2 " + to_string(best) + ", "));
+  EXPECT_THAT(figure.tex, StartsWith("\\begin{tikzpicture}"));
+  EXPECT_THAT(figure.csv, StartsWith("state,behaviour,behaviour_parameters,transition,target,"
+                                     "condition,condition_parameters\n0,"));
+  const auto named = value_of(make({.candidate = best}));
+  EXPECT_EQ(named.svg, figure.svg);
 }
 
 TEST_F(MachineFigureTest, OfSeveralDesignsIsASheetInTheirOrder) {
-  const auto sheet = make({});
-  ASSERT_TRUE(sheet) << to_string(sheet.error());
-  const std::size_t first = sheet->svg.find(">d1 c");
-  const std::size_t second = sheet->svg.find(">d2 c");
+  const auto sheet = value_of(make({}));
+  const std::size_t first = sheet.svg.find(">d1 c");
+  const std::size_t second = sheet.svg.find(">d2 c");
   ASSERT_NE(second, std::string::npos);
   EXPECT_LT(first, second);
-  EXPECT_THAT(sheet->csv, testing::StartsWith("design,candidate,state,behaviour,"));
+  EXPECT_THAT(sheet.csv, StartsWith("design,candidate,state,behaviour,"));
 }
 
 TEST_F(MachineFigureTest, OfManyDesignsHasPagesThatHoldEachOnce) {
@@ -62,11 +43,10 @@ TEST_F(MachineFigureTest, OfManyDesignsHasPagesThatHoldEachOnce) {
   }
   reader = open_reader(folder / "many.db");
   for (const double width : {85.0, 174.0}) {
-    const auto figure = make({.width_mm = width});
-    ASSERT_TRUE(figure) << to_string(figure.error());
-    ASSERT_GT(figure->pages.size(), 1U);
+    const auto figure = value_of(make({.width_mm = width}));
+    ASSERT_GT(figure.pages.size(), 1U);
     std::string all;
-    for (const std::string& page : figure->pages) {
+    for (const std::string& page : figure.pages) {
       EXPECT_LE(std::stod(page.substr(page.find("height=\"") + 8)), kFigurePage_mm);
       all += page;
     }
@@ -77,7 +57,7 @@ TEST_F(MachineFigureTest, OfManyDesignsHasPagesThatHoldEachOnce) {
       EXPECT_EQ(all.find(name, at + 1), std::string::npos) << name;
     }
   }
-  EXPECT_THAT(make({.filter = {.design = DesignId{2}}})->pages, testing::IsEmpty());
+  EXPECT_THAT(make({.filter = {.design = DesignId{2}}})->pages, IsEmpty());
 }
 
 TEST_F(MachineFigureTest, SaysWhatIsMissingOrOutOfPlace) {
@@ -120,38 +100,35 @@ struct ControllerFigureTest : testing::Test {
 };
 
 TEST_F(ControllerFigureTest, DrawsATree) {
-  const auto figure = make({.filter = {.design = DesignId{2}}});
-  ASSERT_TRUE(figure) << to_string(figure.error());
-  EXPECT_THAT(figure->svg, HasSubstr(">→*<"));
-  EXPECT_THAT(figure->svg, testing::Not(HasSubstr("\">d2 c")));
-  EXPECT_THAT(figure->tex, HasSubstr("{$\\rightarrow$*};"));
-  EXPECT_EQ(figure->csv,
+  const auto figure = value_of(make({.filter = {.design = DesignId{2}}}));
+  EXPECT_THAT(figure.svg, HasSubstr(">→*<"));
+  EXPECT_THAT(figure.svg, Not(HasSubstr("\">d2 c")));
+  EXPECT_THAT(figure.tex, HasSubstr("{$\\rightarrow$*};"));
+  EXPECT_EQ(figure.csv,
             "subtree,condition,condition_parameters,action,action_parameters\n"
             "0,black_floor,beta=0.5,stop,\n");
 }
 
 TEST_F(ControllerFigureTest, DrawsANetworkBelowATitleThatPapersLeaveOut) {
   FigureOptions options{.filter = {.design = DesignId{3}}};
-  const auto figure = make(options);
-  ASSERT_TRUE(figure) << to_string(figure.error());
-  EXPECT_THAT(figure->svg, HasSubstr(">bias<"));
-  EXPECT_THAT(figure->svg, HasSubstr("\">d3 c"));
-  EXPECT_THAT(figure->csv, StartsWith("input,left_weight,right_weight\n"
-                                      "obstacle 45,0,1\nobstacle 135,-0.5,2\n"));
+  const auto figure = value_of(make(options));
+  EXPECT_THAT(figure.svg, HasSubstr(">bias<"));
+  EXPECT_THAT(figure.svg, HasSubstr("\">d3 c"));
+  EXPECT_THAT(figure.csv, StartsWith("input,left_weight,right_weight\n"
+                                     "obstacle 45,0,1\nobstacle 135,-0.5,2\n"));
   options.paper = true;
-  EXPECT_THAT(make(options)->svg, testing::Not(HasSubstr("\">d3 c")));
+  EXPECT_THAT(make(options)->svg, Not(HasSubstr("\">d3 c")));
 }
 
 TEST_F(ControllerFigureTest, OfAllKindsIsASheetWithTheColumnsOfAll) {
-  const auto sheet = make({.width_mm = 174});
-  ASSERT_TRUE(sheet) << to_string(sheet.error());
-  EXPECT_THAT(sheet->svg, HasSubstr("<title>3 controllers</title>"));
-  EXPECT_THAT(sheet->csv,
+  const auto sheet = value_of(make({.width_mm = 174}));
+  EXPECT_THAT(sheet.svg, HasSubstr("<title>3 controllers</title>"));
+  EXPECT_THAT(sheet.csv,
               StartsWith("design,candidate,state,behaviour,behaviour_parameters,transition,target,"
                          "condition,condition_parameters,subtree,action,action_parameters,input,"
                          "left_weight,right_weight\n"));
-  EXPECT_THAT(sheet->csv, HasSubstr(",,,,,,black_floor,beta=0.5,0,stop,,,,\n"));
-  EXPECT_THAT(sheet->csv, HasSubstr(",,,,,,,,,,,bias,0,0.125\n"));
+  EXPECT_THAT(sheet.csv, HasSubstr(",,,,,,black_floor,beta=0.5,0,stop,,,,\n"));
+  EXPECT_THAT(sheet.csv, HasSubstr(",,,,,,,,,,,bias,0,0.125\n"));
 }
 
 TEST(ControllerOf, NeedsTheFlavour) {

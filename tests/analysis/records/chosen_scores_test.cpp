@@ -1,12 +1,9 @@
 #include "analysis/records/chosen_scores.h"
 
-#include <gmock/gmock.h>
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 DesignScore score_of(std::int64_t design, const std::string& purpose, double score,
                      const std::string& source = "rvr") {

@@ -1,25 +1,16 @@
 #include "analysis/records/race_matrix.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 
 #include "storage/internal/sqlite.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
-struct RaceMatrixTest : testing::Test {
-  TemporaryFolder folder;
-  std::unique_ptr<StoreReader> reader;
-
-  RaceMatrixTest() {
-    const SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 2});
-    auto store = open_store(folder / "s.db", campaign);
-    for (const auto& batch : campaign.batches)
-      store->append(batch);
-  }
+struct RaceMatrixTest : FilledStore {
+  RaceMatrixTest() : FilledStore(synthetic_campaign({.designs = 1, .iterations = 2})) {}
 
   void change(const std::string& sql) {
     sqlite::Connection((folder / "s.db").string(), SQLITE_OPEN_READWRITE).execute(sql);
@@ -27,9 +18,7 @@ struct RaceMatrixTest : testing::Test {
 
   RaceMatrix matrix() {
     reader = open_reader(folder / "s.db");
-    auto race = race_matrix(*reader, DesignId{1}, 2);
-    EXPECT_TRUE(race);
-    return race ? std::move(*race) : RaceMatrix{};
+    return value_of(race_matrix(*reader, DesignId{1}, 2));
   }
 };
 

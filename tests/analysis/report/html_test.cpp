@@ -1,15 +1,11 @@
 #include "analysis/report/html.h"
 
-#include <gmock/gmock.h>
-
 #include "analysis/drawing/svg.h"
+#include "tests/support/checks.h"
 #include "tests/support/xml_check.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 TEST(XmlCheck, FindsWhatIsWrong) {
   EXPECT_EQ(xml_trouble("<!DOCTYPE html>\n<a b=\"c &amp; d\"><e/>f</a>\n"), "");

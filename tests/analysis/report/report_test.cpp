@@ -1,21 +1,16 @@
 #include "analysis/report/report.h"
 
-#include <gmock/gmock.h>
-
 #include <regex>
 
 #include "analysis/report/supplement.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/checks.h"
 #include "tests/support/xml_check.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::Contains;
-using testing::ElementsAre;
 using testing::Field;
-using testing::HasSubstr;
-using testing::Not;
 
 Expected<std::string> as_is(CandidateId candidate) {
   return to_string(candidate) + "\n";
@@ -35,21 +30,15 @@ SyntheticCampaign hostile_campaign() {
 
 std::unique_ptr<StoreReader> stored(const std::filesystem::path& path,
                                     const SyntheticCampaign& campaign) {
-  auto store = open_store(path, campaign);
-  for (const auto& batch : campaign.batches)
-    store->append(batch);
-  store.reset();
+  fill_store(path, campaign);
   return open_reader(path);
 }
 
-struct ReportTest : testing::Test {
-  TemporaryFolder folder;
-  std::unique_ptr<StoreReader> reader = stored(folder / "s.db", hostile_campaign());
+struct ReportTest : FilledStore {
+  ReportTest() : FilledStore(hostile_campaign()) {}
 
   std::string report(const ReportOptions& options = {.program = "swarmsmith <test>"}) {
-    const auto text = html_report(*reader, options);
-    EXPECT_TRUE(text) << (text ? "" : to_string(text.error()));
-    return text.value_or("");
+    return value_of(html_report(*reader, options));
   }
 };
 
@@ -141,10 +130,9 @@ TEST_F(ReportTest, GivesChaptersToTheDesignsThatAreNamed) {
   const std::string text = report({.designs = {DesignId{2}}});
   EXPECT_THAT(text, Not(HasSubstr("Design d1:")));
   EXPECT_THAT(text, HasSubstr("Design d2:"));
-  const auto unknown = html_report(*reader, {.designs = {DesignId{9}}});
-  ASSERT_FALSE(unknown);
-  EXPECT_EQ(unknown.error().kind, ErrorKind::NotFound);
-  EXPECT_THAT(unknown.error().message, HasSubstr("d9"));
+  const Error unknown = why_not(html_report(*reader, {.designs = {DesignId{9}}}));
+  EXPECT_EQ(unknown.kind, ErrorKind::NotFound);
+  EXPECT_THAT(unknown.message, HasSubstr("d9"));
 }
 
 TEST(Report, OfACampaignThatHasJustBegunSaysSo) {
@@ -152,13 +140,10 @@ TEST(Report, OfACampaignThatHasJustBegunSaysSo) {
   SyntheticCampaign campaign = hostile_campaign();
   campaign.batches.clear();
   const auto reader = stored(folder / "s.db", campaign);
-  const auto text = html_report(*reader, {});
-  ASSERT_TRUE(text) << to_string(text.error());
-  EXPECT_EQ(xml_trouble(*text), "");
-  EXPECT_THAT(*text, HasSubstr("No winner was evaluated outside of its race yet."));
-  const auto files = supplement(*reader, {.machine_file = as_is});
-  ASSERT_FALSE(files);
-  EXPECT_EQ(files.error().kind, ErrorKind::NotFound);
+  const auto text = value_of(html_report(*reader, {}));
+  EXPECT_EQ(xml_trouble(text), "");
+  EXPECT_THAT(text, HasSubstr("No winner was evaluated outside of its race yet."));
+  EXPECT_EQ(why_not(supplement(*reader, {.machine_file = as_is})).kind, ErrorKind::NotFound);
 }
 
 std::vector<std::string> paths_of(const std::vector<SupplementFile>& files) {
@@ -170,9 +155,8 @@ std::vector<std::string> paths_of(const std::vector<SupplementFile>& files) {
 
 TEST_F(ReportTest, ASupplementHasSafeNamesInOrder) {
   const auto files =
-      supplement(*reader, {.machine_file = as_is, .program = "p", .with_pdfs = true});
-  ASSERT_TRUE(files) << to_string(files.error());
-  const std::vector<std::string> paths = paths_of(*files);
+      value_of(supplement(*reader, {.machine_file = as_is, .program = "p", .with_pdfs = true}));
+  const std::vector<std::string> paths = paths_of(files);
   EXPECT_TRUE(std::ranges::is_sorted(paths));
   EXPECT_EQ(std::ranges::adjacent_find(paths), paths.end());
   const std::regex safe("[A-Za-z0-9._-]+(/[A-Za-z0-9._-]+)?");
@@ -182,13 +166,13 @@ TEST_F(ReportTest, ASupplementHasSafeNamesInOrder) {
   EXPECT_THAT(paths, Contains("results.csv"));
   EXPECT_THAT(paths, Contains("report.html"));
   EXPECT_THAT(paths, Contains("designs/d1-_i_m__i_-it_s___x__-1.html"));
-  const auto page = std::ranges::find(*files, "report.html", &SupplementFile::path)->text;
+  const auto page = std::ranges::find(files, "report.html", &SupplementFile::path)->text;
   EXPECT_THAT(page, HasSubstr("<a href=\"designs/d1-_i_m__i_-it_s___x__-1.html\">d1</a>"));
   EXPECT_THAT(paths, Contains("figures/convergence.csv"));
   const auto again =
       supplement(*reader, {.machine_file = as_is, .program = "p", .with_pdfs = true});
-  for (std::size_t i = 0; i < files->size(); ++i)
-    EXPECT_EQ((*files)[i].text, (*again)[i].text) << paths[i];
+  for (std::size_t i = 0; i < files.size(); ++i)
+    EXPECT_EQ(files[i].text, (*again)[i].text) << paths[i];
 }
 
 TEST_F(ReportTest, ASupplementSaysWhatAnotherRunDoesNotRepeat) {

@@ -1,7 +1,6 @@
 #include "base/process/process.h"
 
 #include <dirent.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cerrno>
@@ -12,6 +11,7 @@
 #include <thread>
 
 #include "base/process/guard.h"
+#include "tests/support/checks.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 
@@ -44,11 +44,7 @@ std::size_t open_descriptors() {
 
 class Programs : public ::testing::Test {
  protected:
-  ProcessEnd run(const ProcessCall& call) {
-    auto end = run_process(call, never);
-    EXPECT_TRUE(end) << (end ? "" : end.error().message);
-    return end ? *end : ProcessEnd{};
-  }
+  ProcessEnd run(const ProcessCall& call) { return value_of(run_process(call, never)); }
   std::filesystem::path script(const std::string& name, const std::string& text, bool may = true) {
     std::ofstream(folder / name) << text;
     if (may) std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
@@ -164,25 +160,23 @@ TEST_F(Programs, ThatCannotStartSayWhy) {
     const auto end = run_process({.words = {path.string()}, .folder = in}, never);
     return end ? std::string("started") : end.error().message;
   };
-  EXPECT_NE(why(folder / "missing").find("No such file"), std::string::npos);
-  EXPECT_NE(why(script("plain", "echo 1\n", false)).find("chmod +x"), std::string::npos);
-  EXPECT_NE(why(script("lost", "#!/no/such/shell\n")).find("first line"), std::string::npos);
-  EXPECT_NE(why(script("windows", "#!/bin/sh\r\necho 1\r\n")).find("carriage return"),
-            std::string::npos);
-  EXPECT_NE(why(folder.path()).find("cannot be started"), std::string::npos);
-  EXPECT_NE(why("/bin/true", "/no/such/folder").find("/no/such/folder"), std::string::npos);
-  EXPECT_NE(why("no-such-program-at-all").find("in PATH"), std::string::npos);
-  const auto end = run_process({.words = {"/bin/true", std::string(1U << 20U, 'x')}}, never);
-  ASSERT_FALSE(end);
-  EXPECT_NE(end.error().message.find("command line is longer"), std::string::npos);
+  EXPECT_THAT(why(folder / "missing"), HasSubstr("No such file"));
+  EXPECT_THAT(why(script("plain", "echo 1\n", false)), HasSubstr("chmod +x"));
+  EXPECT_THAT(why(script("lost", "#!/no/such/shell\n")), HasSubstr("first line"));
+  EXPECT_THAT(why(script("windows", "#!/bin/sh\r\necho 1\r\n")), HasSubstr("carriage return"));
+  EXPECT_THAT(why(folder.path()), HasSubstr("cannot be started"));
+  EXPECT_THAT(why("/bin/true", "/no/such/folder"), HasSubstr("/no/such/folder"));
+  EXPECT_THAT(why("no-such-program-at-all"), HasSubstr("in PATH"));
+  EXPECT_THAT(
+      why_not(run_process({.words = {"/bin/true", std::string(1U << 20U, 'x')}}, never)).message,
+      HasSubstr("command line is longer"));
 }
 
 TEST_F(Programs, EndWhenTheyAreInterrupted) {
   Interrupt interrupt;
   std::jthread later([&] { interrupt.trigger(); });
-  const auto end = run_process(hostile({"--hang", ""}), interrupt);
-  ASSERT_TRUE(end);
-  EXPECT_EQ(end->why, ProcessEnd::Why::Interrupted);
+  const auto end = value_of(run_process(hostile({"--hang", ""}), interrupt));
+  EXPECT_EQ(end.why, ProcessEnd::Why::Interrupted);
   EXPECT_EQ(run_process(hostile({"--hang", ""}), interrupt)->why, ProcessEnd::Why::Interrupted);
 }
 

@@ -1,12 +1,9 @@
 #include "base/text/csv.h"
 
-#include <gmock/gmock.h>
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 TEST(CsvField, IsInQuotesWhenItMustBe) {
   EXPECT_EQ(csv_field("plain text"), "plain text");
@@ -49,28 +46,26 @@ TEST(CsvField, ComesBack) {
 }
 
 TEST(CsvTable, ReadsQuotesCommasLineBreaksAndBothLineEnds) {
-  const auto table = parse_csv(
-      "\xef\xbb\xbf"
-      "a,b\r\n1,\"x, \"\"y\"\"\nz\"\r\n\n2,\n3,\"\"",
-      "t.csv");
-  ASSERT_TRUE(table) << to_string(table.error().front());
-  EXPECT_THAT(table->columns, ElementsAre("a", "b"));
-  ASSERT_EQ(table->rows.size(), 3U);
-  EXPECT_THAT(table->rows[0].cells, ElementsAre("1", "x, \"y\"\nz"));
-  EXPECT_THAT(table->rows[1].cells, ElementsAre("2", ""));
-  EXPECT_THAT(table->rows[2].cells, ElementsAre("3", ""));
+  const auto table =
+      value_of(parse_csv("\xef\xbb\xbf"
+                         "a,b\r\n1,\"x, \"\"y\"\"\nz\"\r\n\n2,\n3,\"\"",
+                         "t.csv"));
+  EXPECT_THAT(table.columns, ElementsAre("a", "b"));
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_THAT(table.rows[0].cells, ElementsAre("1", "x, \"y\"\nz"));
+  EXPECT_THAT(table.rows[1].cells, ElementsAre("2", ""));
+  EXPECT_THAT(table.rows[2].cells, ElementsAre("3", ""));
   // The row before it has two lines, and a blank one follows.
-  EXPECT_EQ(table->place(table->rows[1]), "t.csv:5");
-  EXPECT_EQ(cell_of(*table, table->rows[1], "a"), "2");
-  EXPECT_EQ(cell_of(*table, table->rows[1], "c"), "");
+  EXPECT_EQ(table.place(table.rows[1]), "t.csv:5");
+  EXPECT_EQ(cell_of(table, table.rows[1], "a"), "2");
+  EXPECT_EQ(cell_of(table, table.rows[1], "c"), "");
 }
 
 TEST(CsvTable, ReadsTextsThatWereKeptFromBeingFormulas) {
   const std::vector<std::string> texts = {"=1+1", "'=1+1", "@x", "-2+3", "-1.5", "it's", "a,\"b\""};
   const auto table =
-      parse_csv(csv_line({"a", "b", "c", "d", "e", "f", "g"}) + csv_line(texts), "t");
-  ASSERT_TRUE(table);
-  EXPECT_EQ(table->rows.front().cells, texts);
+      value_of(parse_csv(csv_line({"a", "b", "c", "d", "e", "f", "g"}) + csv_line(texts), "t"));
+  EXPECT_EQ(table.rows.front().cells, texts);
 }
 
 TEST(CsvTable, NamesEveryBadRowByItsLine) {

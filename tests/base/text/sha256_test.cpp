@@ -1,10 +1,9 @@
 #include "base/text/sha256.h"
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -42,10 +41,9 @@ TEST(Sha256, OfAFolderIsThatOfNamesAndBytes) {
 
 TEST(Sha256, SaysWhatCannotBeRead) {
   const TemporaryFolder folder;
-  const auto none = sha256_of_file(folder / "none.mp4");
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().kind, ErrorKind::NotFound);
-  EXPECT_NE(none.error().where.find("none.mp4"), std::string::npos);
+  const Error none = why_not(sha256_of_file(folder / "none.mp4"));
+  EXPECT_EQ(none.kind, ErrorKind::NotFound);
+  EXPECT_THAT(none.where, HasSubstr("none.mp4"));
 }
 
 }  // namespace

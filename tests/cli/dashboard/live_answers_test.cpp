@@ -1,19 +1,16 @@
 #include "cli/dashboard/live_answers.h"
 
-#include <gmock/gmock.h>
-
 #include <chrono>
 #include <filesystem>
 #include <utility>
 
 #include "tests/cli/dashboard/asking.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::cli {
 namespace {
 
 using nlohmann::json;
-using testing::ElementsAre;
-using testing::IsEmpty;
 using testing::SizeIs;
 
 History::Time at(double seconds) {

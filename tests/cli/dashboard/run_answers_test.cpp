@@ -1,7 +1,5 @@
 #include "cli/dashboard/run_answers.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include "sim/control/machine_text.h"
@@ -10,6 +8,7 @@
 #include "sim/files/profile_file.h"
 #include "storage/store_at_rest.h"
 #include "tests/cli/dashboard/asking.h"
+#include "tests/support/checks.h"
 #include "tests/support/one_design.h"
 #include "tests/support/synthetic_real_run.h"
 
@@ -17,7 +16,6 @@ namespace swarmsmith::cli {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
 
 const std::string kTwoStatesText =
     "--nstates 2 --s0 0 --rwm0 10 --n0 1 --n0x0 0 --c0x0 0 --p0x0 0.5 --s1 1";
@@ -47,12 +45,11 @@ class RunAnswersTest : public testing::Test {
   /// c1 has a true score on one pair, and a wrong one on another.
   void SetUp() override {
     const Campaign campaign = one_design_campaign();
-    auto store = Store::open(store_, campaign_row(campaign), design_rows(campaign));
-    ASSERT_TRUE(store) << to_string(store.error());
+    auto store = value_of(Store::open(store_, campaign_row(campaign), design_rows(campaign)));
     const DesignId design{1};
     const CandidateId candidate = candidate_id(design, 1);
     const SimulationResult truth = simulated(kTwoStatesText, kSeed, demo_mission());
-    (*store)->append(
+    store->append(
         {IterationRow{.design = design, .number = 1, .of = 2, .budget = 100, .configurations = 1},
          CandidateRow{.id = candidate,
                       .iteration = 1,
@@ -74,7 +71,7 @@ class RunAnswersTest : public testing::Test {
                        .iteration = 1,
                        .measured = {.score = 0.25, .state_digest = 1},
                        .source = "rvr"}});
-    (*store)->flush();
+    store->flush();
   }
 
   TemporaryFolder folder_;
@@ -209,9 +206,8 @@ TEST_F(RunAnswersTest, ARealRunIsShownAsItWasMeasured) {
                 }));
   rows.score.score = result.score;
   {
-    auto store = StoreAtRest::open(store_, StoreAtRest::IfMissing::Make);
-    ASSERT_TRUE(store) << to_string(store.error());
-    const auto added = (*store)->add_real_run(rows);
+    auto store = value_of(StoreAtRest::open(store_, StoreAtRest::IfMissing::Make));
+    const auto added = store->add_real_run(rows);
     ASSERT_TRUE(added) << to_string(added.error());
   }
   const Asking asking(store_);

@@ -1,16 +1,13 @@
 #include "cli/dashboard/store_answers.h"
 
-#include <gmock/gmock.h>
-
 #include "tests/cli/dashboard/asking.h"
+#include "tests/support/checks.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith::cli {
 namespace {
 
 using nlohmann::json;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::StartsWith;
 
 using StoreAnswersTest = WithStore;
 
@@ -59,10 +56,8 @@ TEST_F(StoreAnswersTest, FiguresAreThoseOfTheCommandLine) {
   EXPECT_EQ(asking.text("c1/figures/machine.svg", {{"design", "d1"}}),
             run({"figure", "machine", store_, "--design", "d1"}).out);
   const std::string file = (folder_ / "box.csv").string();
-  ASSERT_EQ(run({"figure", "box", store_, "-o", file}).code, 0);
-  std::ifstream written(file);
-  const std::string csv((std::istreambuf_iterator<char>(written)), {});
-  EXPECT_EQ(asking.text("c1/figures/box.csv"), csv);
+  run_well({"figure", "box", store_, "-o", file});
+  EXPECT_EQ(asking.text("c1/figures/box.csv"), whole_file(file));
   EXPECT_EQ(asking.error("c1/figures/pie.svg"), "404 not_found");
   EXPECT_EQ(asking.error("c1/figures/box.pdf"), "404 not_found");
   EXPECT_EQ(asking.error("c1/figures/box.svg", {{"candidate", "c1"}}), "400 bad_input");
@@ -124,7 +119,7 @@ TEST_F(StoreAnswersTest, StatementsAnswerAsTheCommandLine) {
   EXPECT_THAT(answer["columns"], ElementsAre("candidate", "mean"));
   EXPECT_EQ(answer["rows"], json::parse("[[1,2.5],[2,0.5]]"));
   EXPECT_EQ(answer["truncated"], false);
-  EXPECT_GE(answer["seconds"].get<double>(), 0);
+  EXPECT_TRUE(answer["seconds"].is_number());
   EXPECT_EQ(asking.text("c1/query", {{"sql", sql}, {"format", "csv"}}),
             run({"query", store_, sql, "--csv"}).out);
   EXPECT_EQ(asking.json("c1/query", {{"sql", sql}, {"limit", "1"}})["truncated"], true);

@@ -1,7 +1,5 @@
 #include "cli/irace/irace_console.h"
 
-#include <gmock/gmock.h>
-
 #include <sstream>
 
 #include "cli/irace/irace_report.h"
@@ -9,6 +7,7 @@
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "tests/cli/irace/irace_rows.h"
+#include "tests/support/checks.h"
 #include "tests/support/one_design.h"
 #include "tests/support/temporary_folder.h"
 
@@ -16,9 +15,6 @@ namespace swarmsmith::cli {
 namespace {
 
 using std::chrono::seconds;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 class Console : public testing::Test {
  protected:
@@ -125,10 +121,9 @@ class ConsoleOfAStore : public Console {
  protected:
   void SetUp() override {
     const Campaign campaign = one_design_campaign();
-    auto store = Store::open(file_, campaign_row(campaign), design_rows(campaign));
-    ASSERT_TRUE(store);
-    (*store)->append(rows_);
-    (*store)->flush();
+    auto store = value_of(Store::open(file_, campaign_row(campaign), design_rows(campaign)));
+    store->append(rows_);
+    store->flush();
   }
   std::unique_ptr<StoreReader> reader() { return std::move(*StoreReader::open(file_)); }
 
@@ -162,9 +157,8 @@ TEST_F(ConsoleOfAStore, TellsBrieflyWhatWasAndGoesOnInTheTable) {
 }
 
 TEST_F(ConsoleOfAStore, ReportsAsIraceDoes) {
-  const auto result = read_irace_result(*reader(), ant_space());
-  ASSERT_TRUE(result) << to_string(result.error());
-  EXPECT_EQ(best_text(*result, {}),
+  const auto result = value_of(read_irace_result(*reader(), ant_space()));
+  EXPECT_EQ(best_text(result, {}),
             "# Best configurations (first number is the configuration ID; listed from best to "
             "worst according to the sum of ranks):\n"
             "  algorithm  alpha ants     q0\n"
@@ -175,10 +169,10 @@ TEST_F(ConsoleOfAStore, ReportsAsIraceDoes) {
             "order as above):\n"
             "2  --eas --alpha 3.5 --ants 17\n"
             "1  --mmas --alpha 3.8452 --ants 93 --q0 0.8626\n");
-  EXPECT_EQ(testing_text(*result, "DATE"), "");
+  EXPECT_EQ(testing_text(result, "DATE"), "");
   Scenario by_mean;
   by_mean.test_type = TestType::TTest;
-  EXPECT_THAT(best_text(*result, by_mean), HasSubstr("according to the mean value):"));
+  EXPECT_THAT(best_text(result, by_mean), HasSubstr("according to the mean value):"));
 }
 
 class ConsoleOfTests : public ConsoleOfAStore {
@@ -201,17 +195,16 @@ class ConsoleOfTests : public ConsoleOfAStore {
 };
 
 TEST_F(ConsoleOfTests, ShowsCostsOfTestInstances) {
-  const auto result = read_irace_result(*reader(), ant_space());
-  ASSERT_TRUE(result);
-  EXPECT_THAT(testing_text(*result, "DATE"),
+  const auto result = value_of(read_irace_result(*reader(), ant_space()));
+  EXPECT_THAT(testing_text(result, "DATE"),
               HasSubstr(": Testing results (column number is configuration ID in no particular "
                         "order):\n"
                         "      1    2\n"
                         "1t 10.5 20.5\n"
                         "2t 11.0  Inf\n"));
-  EXPECT_THAT(result_json(*result, "irace.db", 42),
+  EXPECT_THAT(result_json(result, "irace.db", 42),
               HasSubstr(R"({"id":1,"instance":"1t","seed":5,"cost":10.5})"));
-  EXPECT_THAT(result_json(*result, "irace.db", 42),
+  EXPECT_THAT(result_json(result, "irace.db", 42),
               HasSubstr(R"("best":[{"id":2,"mean_cost":9.4,"pairs":2,)"
                         R"("parameters":{"algorithm":"eas","alpha":3.5,"ants":17},)"
                         R"("command_line":"--eas --alpha 3.5 --ants 17"},)"));

@@ -1,7 +1,5 @@
 #include "coordinator/campaign/argos_experiment.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,12 +9,10 @@
 #include "sim/control/machine_text.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 Machine explorer() {
   return {{State{.behaviour = Exploration{20}, .transitions = {{BlackFloor{0.5}, 1}}},
@@ -24,10 +20,8 @@ Machine explorer() {
 }
 
 std::string text_for(const std::string& mission) {
-  const auto text = argos_experiment(
-      {.controller = explorer(), .mission = *built_in_mission(mission), .seed = 7, .title = "t"});
-  EXPECT_TRUE(text) << (text ? "" : to_string(text.error()));
-  return text.value_or("");
+  return value_of(argos_experiment(
+      {.controller = explorer(), .mission = *built_in_mission(mission), .seed = 7, .title = "t"}));
 }
 
 TEST(ArgosExperiment, HasTheOriginalsLoopFunctions) {
@@ -62,27 +56,23 @@ TEST(ArgosExperiment, HasTheWallsThatOurArenaHas) {
 
 TEST(ArgosExperiment, NumbersModulesAsTheOriginalDoes) {
   // Attraction is 4 in chocolate and 2 in the original.
-  const auto machine = parse_machine(
-      "--nstates 2 --s0 4 --att0 2.5 --n0 1 --n0x0 0 --c0x0 3 --p0x0 4 --w0x0 5.5 "
-      "--s1 5 --rep1 3",
-      chocolate());
-  ASSERT_TRUE(machine);
-  const auto text = argos_experiment(
-      {.controller = *machine, .mission = *built_in_mission("aggregation"), .title = "t"});
-  ASSERT_TRUE(text);
-  EXPECT_THAT(*text,
-              HasSubstr("fsm-config=\"--nstates 2 --s0 2 --att0 2.5 --n0 1 --n0x0 0 --c0x0 3 "
-                        "--p0x0 4 --w0x0 5.5 --s1 3 --rep1 3\" real-robot=\"false\""));
+  const auto machine = value_of(
+      parse_machine("--nstates 2 --s0 4 --att0 2.5 --n0 1 --n0x0 0 --c0x0 3 --p0x0 4 --w0x0 5.5 "
+                    "--s1 5 --rep1 3",
+                    chocolate()));
+  const auto text = value_of(argos_experiment(
+      {.controller = machine, .mission = *built_in_mission("aggregation"), .title = "t"}));
+  EXPECT_THAT(text, HasSubstr("fsm-config=\"--nstates 2 --s0 2 --att0 2.5 --n0 1 --n0x0 0 --c0x0 3 "
+                              "--p0x0 4 --w0x0 5.5 --s1 3 --rep1 3\" real-robot=\"false\""));
 }
 
 TEST(ArgosExperiment, RefusesModulesThatTheOriginalLacks) {
   const Machine machine{{State{.behaviour = Phototaxis{}, .transitions = {}}}};
-  const auto text =
-      argos_experiment({.controller = machine, .mission = *built_in_mission("aggregation")});
-  ASSERT_FALSE(text);
-  EXPECT_THAT(text.error().message, HasSubstr("original AutoMoDe cannot run this machine"));
-  EXPECT_THAT(text.error().message, HasSubstr("no module phototaxis"));
-  EXPECT_EQ(text.error().where, "state 0");
+  const Error text = why_not(
+      argos_experiment({.controller = machine, .mission = *built_in_mission("aggregation")}));
+  EXPECT_THAT(text.message, HasSubstr("original AutoMoDe cannot run this machine"));
+  EXPECT_THAT(text.message, HasSubstr("no module phototaxis"));
+  EXPECT_EQ(text.where, "state 0");
 }
 
 TEST(ArgosExperiment, TakesNameDurationAndRobotsAndNothingElseOfAMission) {
@@ -90,15 +80,13 @@ TEST(ArgosExperiment, TakesNameDurationAndRobotsAndNothingElseOfAMission) {
   mission.name = "mine";
   mission.cycles = 605;
   mission.robots = 5;
-  const auto text = argos_experiment({.controller = explorer(), .mission = mission});
-  ASSERT_TRUE(text);
-  EXPECT_THAT(*text, HasSubstr("length=\"60.5\""));
-  EXPECT_THAT(*text, HasSubstr("<rvr id=\"rvr_05_55\">"));
-  EXPECT_THAT(*text, Not(HasSubstr("rvr_06")));
+  const auto text = value_of(argos_experiment({.controller = explorer(), .mission = mission}));
+  EXPECT_THAT(text, HasSubstr("length=\"60.5\""));
+  EXPECT_THAT(text, HasSubstr("<rvr id=\"rvr_05_55\">"));
+  EXPECT_THAT(text, Not(HasSubstr("rvr_06")));
   mission.arena.floor = {1, 2, 3};
-  const auto other = argos_experiment({.controller = explorer(), .mission = mission});
-  ASSERT_FALSE(other);
-  EXPECT_THAT(other.error().message, HasSubstr("mine is not one of the thesis' three"));
+  EXPECT_THAT(complaint_of(argos_experiment({.controller = explorer(), .mission = mission})),
+              HasSubstr("mine is not one of the thesis' three"));
   mission = *built_in_mission("aggregation");
   mission.robots = 10;
   EXPECT_FALSE(argos_experiment({.controller = explorer(), .mission = mission}));
@@ -157,13 +145,12 @@ TEST_F(ArgosExperimentOfEPucks, TakesTreesAndTheNoiseOfAProfile) {
                         "--p00 0.28 --n01 5 --a01 0 --rwm01 5 --p01 0",
                         *find_flavour("maple-epuck").value())
                         .value();
-  const auto text = argos_experiment(tree);
-  ASSERT_TRUE(text) << to_string(text.error());
-  EXPECT_THAT(*text, HasSubstr("<automode_controller_bt id=\"automode\" "
-                               "library=\"libautomode_bt.so\">"));
-  EXPECT_THAT(*text, HasSubstr("<params bt-config=\"--nroot 3"));
-  EXPECT_THAT(*text, HasSubstr("noise_std_dev=\"0.15\""));
-  EXPECT_THAT(*text, HasSubstr("loss_probability=\"0.9\""));
+  const auto text = value_of(argos_experiment(tree));
+  EXPECT_THAT(text, HasSubstr("<automode_controller_bt id=\"automode\" "
+                              "library=\"libautomode_bt.so\">"));
+  EXPECT_THAT(text, HasSubstr("<params bt-config=\"--nroot 3"));
+  EXPECT_THAT(text, HasSubstr("noise_std_dev=\"0.15\""));
+  EXPECT_THAT(text, HasSubstr("loss_probability=\"0.9\""));
 }
 
 TEST_F(ArgosExperimentOfEPucks, RefusesWhatTheOriginalHasNot) {
@@ -190,12 +177,12 @@ TEST_F(ArgosExperimentOfEPucks, RefusesWhatTheOriginalHasNot) {
 }
 
 TEST_F(ArgosExperimentOfEPucks, KnowsWhatOfAProfileItCannotSay) {
-  EXPECT_THAT(left_out_of_argos(*built_in_profile("epuck")), testing::IsEmpty());
-  EXPECT_THAT(left_out_of_argos(*built_in_profile("epuck-pseudo-reality")), testing::IsEmpty());
+  EXPECT_THAT(left_out_of_argos(*built_in_profile("epuck")), IsEmpty());
+  EXPECT_THAT(left_out_of_argos(*built_in_profile("epuck-pseudo-reality")), IsEmpty());
   Profile profile = *built_in_profile("epuck");
   profile.timing.jitter = 0.05;
   profile.treads.way = 0.5;
-  EXPECT_THAT(left_out_of_argos(profile), testing::ElementsAre("timing.jitter", "treads.way"));
+  EXPECT_THAT(left_out_of_argos(profile), ElementsAre("timing.jitter", "treads.way"));
   ArgosExperiment ranges = experiment("rt-aac.toml");
   ranges.profile =
       parse_profile("format = 1\nbase = \"epuck\"\n[treads]\nsd = [0, 0.2]\n", "p.toml").value();
@@ -203,11 +190,10 @@ TEST_F(ArgosExperimentOfEPucks, KnowsWhatOfAProfileItCannotSay) {
 }
 
 TEST(ArgosExperiment, KeepsItsCommentWellFormed) {
-  const auto text = argos_experiment({.controller = explorer(),
-                                      .mission = *built_in_mission("aggregation"),
-                                      .title = "a--b---c\n"});
-  ASSERT_TRUE(text);
-  EXPECT_THAT(*text, HasSubstr("<!-- a- -b- - -c\\n\n     For"));
+  const auto text = value_of(argos_experiment({.controller = explorer(),
+                                               .mission = *built_in_mission("aggregation"),
+                                               .title = "a--b---c\n"}));
+  EXPECT_THAT(text, HasSubstr("<!-- a- -b- - -c\\n\n     For"));
 }
 
 }  // namespace

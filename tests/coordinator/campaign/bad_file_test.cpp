@@ -1,16 +1,11 @@
-#include <gmock/gmock.h>
-
 #include <fstream>
 
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// A text with one mistake, and the sentence for it with its place.
 struct Mistake {
@@ -325,10 +320,9 @@ TEST(CampaignFile, RefusesTwoMissionsOfOneName) {
 }
 
 TEST(CampaignFile, ThatIsNotThereIsNotFound) {
-  const auto campaign = read_campaign("/nonexistent/x.toml");
-  ASSERT_FALSE(campaign);
-  EXPECT_EQ(campaign.error().front().kind, ErrorKind::NotFound);
-  EXPECT_EQ(campaign.error().front().where, "/nonexistent/x.toml");
+  const Error campaign = why_not(read_campaign("/nonexistent/x.toml"));
+  EXPECT_EQ(campaign.kind, ErrorKind::NotFound);
+  EXPECT_EQ(campaign.where, "/nonexistent/x.toml");
 }
 
 TEST(CampaignFile, WithABudgetThatFitsHasNoComplaints) {

@@ -4,18 +4,15 @@
 #include "sim/files/machine_file.h"
 #include "sim/files/profile_file.h"
 
-#include <gmock/gmock.h>
-
 #include <fstream>
 
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::SizeIs;
 
 TEST(CampaignFile, OfTheShortestKindTakesEverythingElseFromDefaults) {
@@ -195,14 +192,13 @@ TEST(CampaignFile, TakesMissionsAndProfilesFromFilesBesideIt) {
                             "preset = \"shelter.toml\"\nrobots = 5\n",
                  .rest = "[simulator]\nprofile = \"mine.toml\"\n"}
             .text());
-  const auto campaign = read_campaign(folder / "campaign.toml");
-  ASSERT_TRUE(campaign) << to_string(campaign.error().front());
-  ASSERT_THAT(campaign->missions, SizeIs(2));
-  EXPECT_EQ(campaign->missions[0].mission.name, "shelter");
-  EXPECT_EQ(campaign->missions[0].test_count, 7);
-  EXPECT_EQ(campaign->missions[1].mission.name, "night");
-  EXPECT_EQ(campaign->missions[1].mission.robots, 5);
-  EXPECT_EQ(campaign->profile, (Profile{.name = "mine", .proximity = {.sd_m = 0.02}}));
+  const auto campaign = value_of(read_campaign(folder / "campaign.toml"));
+  ASSERT_THAT(campaign.missions, SizeIs(2));
+  EXPECT_EQ(campaign.missions[0].mission.name, "shelter");
+  EXPECT_EQ(campaign.missions[0].test_count, 7);
+  EXPECT_EQ(campaign.missions[1].mission.name, "night");
+  EXPECT_EQ(campaign.missions[1].mission.robots, 5);
+  EXPECT_EQ(campaign.profile, (Profile{.name = "mine", .proximity = {.sd_m = 0.02}}));
 }
 
 TEST(CampaignFile, TellsWhatIsWrongInFilesThatItNames) {
@@ -217,8 +213,7 @@ TEST(CampaignFile, TellsWhatIsWrongInFilesThatItNames) {
   ASSERT_THAT(campaign.error(), SizeIs(2));
   EXPECT_EQ(campaign.error()[0].where, (folder / "m.toml").string() + ":2:10");
   EXPECT_EQ(campaign.error()[1].where, (folder / "rvr.toml").string());
-  EXPECT_THAT(campaign.error()[1].message,
-              testing::HasSubstr("`rvr` is built in with other values"));
+  EXPECT_THAT(campaign.error()[1].message, HasSubstr("`rvr` is built in with other values"));
 }
 
 TEST(CampaignFile, RefusesAProfileInATableThatTakesTheNameOfABuiltInOne) {
@@ -240,8 +235,7 @@ TEST(CampaignFile, RefusesAProfileInATableThatTakesTheNameOfABuiltInOne) {
     table.replace(rate, table.find('\n', rate) - rate, "miss_rate = 0.5");
     const auto other = read(table);
     ASSERT_FALSE(other) << header;
-    EXPECT_THAT(other.error()[0].message,
-                testing::HasSubstr("`argos3` is built in with other values"));
+    EXPECT_THAT(other.error()[0].message, HasSubstr("`argos3` is built in with other values"));
     EXPECT_TRUE(parse_campaign(FileText{.rest = table}.text(), "stored.toml"));
   }
 }
@@ -282,7 +276,7 @@ TEST(CampaignFile, OfABudgetThatFlagsMadeTooSmallNamesTheSmallestThatWorks) {
   campaign.race.max_experiments = 1349;
   const auto errors = check_budget(campaign);
   ASSERT_THAT(errors, SizeIs(1));
-  EXPECT_THAT(errors[0].message, testing::HasSubstr("1350"));
+  EXPECT_THAT(errors[0].message, HasSubstr("1350"));
 }
 
 TEST(CampaignFile, OfTheDemoIsShort) {
@@ -293,7 +287,7 @@ TEST(CampaignFile, OfTheDemoIsShort) {
   EXPECT_EQ(demo.missions[0].mission.name, "color_selection");
   ASSERT_THAT(demo.methods, SizeIs(3));
   EXPECT_EQ(demo.methods[0].baseline, "");
-  EXPECT_THAT(demo.methods[1].baseline, testing::StartsWith("--nstates 2 --s0 0"));
+  EXPECT_THAT(demo.methods[1].baseline, StartsWith("--nstates 2 --s0 0"));
   EXPECT_EQ(demo.methods[2].baseline, kRandomMachine);
 }
 
@@ -320,7 +314,7 @@ TEST(Baseline, ChangesTheDigestAndOtherCampaignsKeepTheirs) {
   const Campaign one = parsed(with_method("baseline = \"random\"\n"));
   const Campaign other = parsed(with_method(""));
   EXPECT_NE(campaign_digest(one), campaign_digest(other));
-  EXPECT_THAT(normalised_text(other), testing::Not(testing::HasSubstr("baseline")));
+  EXPECT_THAT(normalised_text(other), Not(HasSubstr("baseline")));
 }
 
 TEST(Baseline, HasNoBudget) {
@@ -337,14 +331,11 @@ TEST(Baseline, OfAFileFollowsItsHead) {
   const auto read = [&](const std::string& keys) {
     return parse_campaign(with_method(keys), folder / "campaign.toml");
   };
-  const auto campaign = read("baseline = \"hand.fsm\"\n");
-  ASSERT_TRUE(campaign) << to_string(campaign.error().front());
-  EXPECT_EQ(campaign->methods[1].flavour, "watermelon-argos3");
-  EXPECT_EQ(campaign->methods[1].baseline, kStop);
-  const auto other = read("baseline = \"hand.fsm\"\nflavour = \"chocolate\"\n");
-  ASSERT_FALSE(other);
-  EXPECT_THAT(other.error().front().message,
-              testing::HasSubstr("designed for the flavour watermelon-argos3"));
+  const auto campaign = value_of(read("baseline = \"hand.fsm\"\n"));
+  EXPECT_EQ(campaign.methods[1].flavour, "watermelon-argos3");
+  EXPECT_EQ(campaign.methods[1].baseline, kStop);
+  EXPECT_THAT(complaint_of(read("baseline = \"hand.fsm\"\nflavour = \"chocolate\"\n")),
+              HasSubstr("designed for the flavour watermelon-argos3"));
 }
 
 TEST(Baseline, ThatIsWrongIsComplainedOf) {
@@ -352,14 +343,14 @@ TEST(Baseline, ThatIsWrongIsComplainedOf) {
     const auto campaign = parse_campaign(with_method(keys), "/nowhere/campaign.toml");
     return campaign ? std::string("nothing") : to_string(campaign.error().front());
   };
-  EXPECT_THAT(message("baseline = \"--nstates 1 --s0 9\"\n"), testing::HasSubstr("token 4"));
-  EXPECT_THAT(message("baseline = \"hand.fsm\"\n"), testing::HasSubstr("hand.fsm"));
+  EXPECT_THAT(message("baseline = \"--nstates 1 --s0 9\"\n"), HasSubstr("token 4"));
+  EXPECT_THAT(message("baseline = \"hand.fsm\"\n"), HasSubstr("hand.fsm"));
   for (const std::string wrong : {"", "Random", "-nstates 1 --s0 1"}) {
     EXPECT_THAT(message("baseline = \"" + wrong + "\"\n"),
-                testing::HasSubstr("or \"random\", not \"" + wrong + "\""));
+                HasSubstr("or \"random\", not \"" + wrong + "\""));
   }
   EXPECT_THAT(message("baseline = \"--nstates 1 --s0 1\"\nmax_states = 2\n"),
-              testing::HasSubstr("the method's `baseline` is a machine"));
+              HasSubstr("the method's `baseline` is a machine"));
 }
 
 }  // namespace

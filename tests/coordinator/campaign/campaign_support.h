@@ -1,7 +1,5 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -10,6 +8,7 @@
 #include "base/rng.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "irace_core/parameter_space.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 
@@ -33,21 +32,12 @@ inline CampaignOrErrors parse(const std::string& text) {
 }
 
 inline Campaign parsed(const std::string& text) {
-  auto campaign = parse(text);
-  if (campaign) return *campaign;
-  for (const Error& error : campaign.error())
-    ADD_FAILURE() << to_string(error);
-  return {};
+  return value_of(parse(text));
 }
 
 /// The errors as lines "file:line:column: sentence".
 inline std::vector<std::string> complaints(const std::string& text) {
-  std::vector<std::string> lines;
-  const auto campaign = parse(text);
-  if (campaign) return lines;
-  for (const Error& error : campaign.error())
-    lines.push_back(to_string(error));
-  return lines;
+  return complaints_of(parse(text));
 }
 
 /// Every active parameter uniform in its domain, reals with two decimals.

@@ -1,19 +1,16 @@
 #include "coordinator/campaign/campaign_text.h"
 
-#include <gmock/gmock.h>
-
 #include <set>
 
 #include "coordinator/campaign/campaign_rows.h"
 #include "tests/coordinator/campaign/campaign_support.h"
 #include "tests/sim/every_noise.h"
 #include "tests/sim/random_mission.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::Contains;
-using testing::ElementsAre;
 using testing::Pair;
 using testing::SizeIs;
 
@@ -177,15 +174,15 @@ TEST(CampaignRow, HoldsTextAndKeysOfTheCampaign) {
   const CampaignRow row = campaign_row(campaign);
   EXPECT_EQ(row.digest, campaign_digest(campaign));
   EXPECT_EQ(row.file, normalised_text(campaign));
-  EXPECT_THAT(row.deciding, testing::StartsWith(R"({"campaign.seed":"1",)"));
-  EXPECT_THAT(row.deciding, testing::HasSubstr(R"("mission.aggregation.duration":"\"120 s\"")"));
+  EXPECT_THAT(row.deciding, StartsWith(R"({"campaign.seed":"1",)"));
+  EXPECT_THAT(row.deciding, HasSubstr(R"("mission.aggregation.duration":"\"120 s\"")"));
 }
 
 // irace's files may be in any encoding, and readers of JSON refuse what is not UTF-8.
 TEST(CampaignRow, IsJsonWhereAProgramsParametersAreNotUtf8) {
   Campaign campaign = parsed(FileText{}.text());
   campaign.methods.front().parameters = "a \"--a\" c (caf\xe9, b)\n";
-  EXPECT_THAT(campaign_row(campaign).deciding, testing::HasSubstr("(caf\xef\xbf\xbd, b)"));
+  EXPECT_THAT(campaign_row(campaign).deciding, HasSubstr("(caf\xef\xbf\xbd, b)"));
 }
 
 }  // namespace

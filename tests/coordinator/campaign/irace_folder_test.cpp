@@ -1,19 +1,15 @@
 #include "coordinator/campaign/irace_folder.h"
 
-#include <gmock/gmock.h>
-
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/machine_space.h"
 #include "coordinator/campaign/tree_space.h"
 #include "sim/control/machine_text.h"
 #include "sim/control/tree.h"
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 /// The same point of the space in words of the grammar: choices keep their index, what has one
 /// value alone gets it.
@@ -40,6 +36,22 @@ std::string command_line(const ParameterSpace& space, const Configuration& confi
   return text;
 }
 
+/// Random points of the space that names modules: their command lines are their controllers.
+template <class Space, class Parse, class Made>
+void expect_the_same(const Space& named, const ParameterSpace& grammar, const Flavour& flavour,
+                     const Parse& parse, const Made& made) {
+  Rng rng(17);
+  for (int i = 0; i < 300; ++i) {
+    const Configuration configuration = random_configuration(named.parameters(), rng);
+    const Configuration same = in_grammar(grammar, named.parameters(), configuration);
+    ASSERT_TRUE(grammar.check(same)) << to_string(grammar.check(same).error());
+    const std::string text = command_line(grammar, same);
+    const auto controller = parse(text, flavour);
+    ASSERT_TRUE(controller) << text << "\n" << to_string(controller.error());
+    EXPECT_EQ(*controller, made(configuration)) << text;
+  }
+}
+
 class IraceGrammar : public testing::TestWithParam<std::string> {};
 
 TEST_P(IraceGrammar, HasCommandLinesThatAreTheMachinesOfTheNamedSpace) {
@@ -52,16 +64,8 @@ TEST_P(IraceGrammar, HasCommandLinesThatAreTheMachinesOfTheNamedSpace) {
   const auto grammar = MachineSpace::in_grammar(method, flavour, 2);
   ASSERT_TRUE(named && grammar);
   EXPECT_EQ(grammar->variable_count(), named->parameters().variable_count());
-  Rng rng(17);
-  for (int i = 0; i < 300; ++i) {
-    const Configuration configuration = random_configuration(named->parameters(), rng);
-    const Configuration same = in_grammar(*grammar, named->parameters(), configuration);
-    ASSERT_TRUE(grammar->check(same)) << to_string(grammar->check(same).error());
-    const std::string text = command_line(*grammar, same);
-    const auto machine = parse_machine(text, flavour);
-    ASSERT_TRUE(machine) << text << "\n" << to_string(machine.error());
-    EXPECT_EQ(*machine, named->to_machine(configuration)) << text;
-  }
+  expect_the_same(*named, *grammar, flavour, parse_machine,
+                  [&](const Configuration& point) { return named->to_machine(point); });
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -84,16 +88,8 @@ TEST_P(IraceGrammarOfTrees, HasCommandLinesThatAreTheTreesOfTheNamedSpace) {
   const auto named = TreeSpace::make(method, flavour, 2);
   const auto grammar = TreeSpace::in_grammar(method, flavour, 2);
   ASSERT_TRUE(named && grammar);
-  Rng rng(17);
-  for (int i = 0; i < 300; ++i) {
-    const Configuration configuration = random_configuration(named->parameters(), rng);
-    const Configuration same = in_grammar(*grammar, named->parameters(), configuration);
-    ASSERT_TRUE(grammar->check(same)) << to_string(grammar->check(same).error());
-    const std::string text = command_line(*grammar, same);
-    const auto tree = parse_tree(text, flavour);
-    ASSERT_TRUE(tree) << text << "\n" << to_string(tree.error());
-    EXPECT_EQ(*tree, named->to_tree(configuration)) << text;
-  }
+  expect_the_same(*named, *grammar, flavour, parse_tree,
+                  [&](const Configuration& point) { return named->to_tree(point); });
 }
 
 INSTANTIATE_TEST_SUITE_P(All, IraceGrammarOfTrees,
@@ -158,17 +154,14 @@ TEST(IraceFolder, SaysWhatThatIraceCannotBeTold) {
   Campaign campaign = parsed(FileText{}.text());
   const DesignRow design = design_rows(campaign).front();
   campaign.race.block_size = 2;
-  const auto old = irace_folder(campaign, design, IraceVersion::V3_5, "/swarmsmith");
-  ASSERT_TRUE(old);
-  EXPECT_THAT(old->remarks, testing::Contains(HasSubstr("`blockSize` does not exist")));
-  const auto late = irace_folder(campaign, design, IraceVersion::V4, "/swarmsmith");
-  ASSERT_TRUE(late);
-  EXPECT_THAT(late->remarks, testing::IsEmpty());
-  EXPECT_THAT(file_of(late->files, "scenario.txt"), HasSubstr("blockSize = 2\n"));
+  const auto old = value_of(irace_folder(campaign, design, IraceVersion::V3_5, "/swarmsmith"));
+  EXPECT_THAT(old.remarks, Contains(HasSubstr("`blockSize` does not exist")));
+  const auto late = value_of(irace_folder(campaign, design, IraceVersion::V4, "/swarmsmith"));
+  EXPECT_THAT(late.remarks, IsEmpty());
+  EXPECT_THAT(file_of(late.files, "scenario.txt"), HasSubstr("blockSize = 2\n"));
   campaign.race.max_time = 100;
-  const auto timed = irace_folder(campaign, design, IraceVersion::V4, "/swarmsmith");
-  ASSERT_FALSE(timed);
-  EXPECT_EQ(timed.error().where, "max_time");
+  EXPECT_EQ(why_not(irace_folder(campaign, design, IraceVersion::V4, "/swarmsmith")).where,
+            "max_time");
 }
 
 TEST(IraceFolder, OfABaselineHasNothingToRace) {
@@ -176,9 +169,9 @@ TEST(IraceFolder, OfABaselineHasNothingToRace) {
     FileText file;
     file.method += "baseline = \"" + std::string(baseline) + "\"\n";
     const Campaign campaign = parsed(file.text());
-    const auto made = irace_folder(campaign, design_rows(campaign).front(), IraceVersion::V4, "/p");
-    ASSERT_FALSE(made);
-    EXPECT_THAT(to_string(made.error()), testing::HasSubstr("d1: it is of the baseline"));
+    EXPECT_THAT(
+        complaint_of(irace_folder(campaign, design_rows(campaign).front(), IraceVersion::V4, "/p")),
+        HasSubstr("d1: it is of the baseline"));
   }
 }
 

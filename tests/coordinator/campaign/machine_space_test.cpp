@@ -1,14 +1,11 @@
 #include "coordinator/campaign/machine_space.h"
 
-#include <gmock/gmock.h>
-
 #include "sim/control/machine_text.h"
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
 
 Method method_of(const std::string& flavour, const std::string& more = "") {
   const std::string text = "name = \"m\"\nflavour = \"" + flavour + "\"\n" + more;
@@ -77,9 +74,8 @@ TEST_P(Flavours, MakeMachinesWhosePrintedTextReadsBackToTheSameMachine) {
     const Configuration configuration = random_configuration(machines.parameters(), rng);
     ASSERT_TRUE(machines.parameters().check(configuration));
     const Machine machine = machines.to_machine(configuration);
-    const auto again = parse_machine(print_machine(machine, flavour), flavour);
-    ASSERT_TRUE(again) << to_string(again.error());
-    EXPECT_EQ(*again, machine);
+    const auto again = value_of(parse_machine(print_machine(machine, flavour), flavour));
+    EXPECT_EQ(again, machine);
   }
 }
 

@@ -1,19 +1,14 @@
-#include <gmock/gmock.h>
-
 #include <ostream>
 
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/campaign_text.h"
 #include "coordinator/campaign/method_space.h"
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Pair;
 
 FileText file_of(const std::string& method) {
@@ -73,10 +68,9 @@ TEST_P(Presets, ReadBackFromTheTextThatStoresHave) {
   for (const char* flavour : {"watermelon", "chocolate"}) {
     const Campaign campaign = campaign_of("flavour = \"" + std::string(flavour) +
                                           "\"\nmethod = \"" + GetParam().preset + "\"\n");
-    const auto again = parse_campaign(normalised_text(campaign), "x.toml");
-    ASSERT_TRUE(again) << to_string(again.error().front());
-    EXPECT_EQ(again->methods, campaign.methods);
-    EXPECT_EQ(campaign_digest(*again), campaign_digest(campaign));
+    const auto again = value_of(parse_campaign(normalised_text(campaign), "x.toml"));
+    EXPECT_EQ(again.methods, campaign.methods);
+    EXPECT_EQ(campaign_digest(again), campaign_digest(campaign));
   }
 }
 
@@ -84,7 +78,7 @@ TEST_P(Presets, NameTheirSearchsVersionInTheAnswer) {
   const auto entries = deciding(campaign_of("method = \"" + GetParam().preset + "\"\n"));
   const std::string key = "search." + std::string(name_of(GetParam().search)) + ".version";
   if (GetParam().search == SearchKind::Irace) {
-    EXPECT_THAT(entries, ::testing::Not(Contains(Pair(HasSubstr("search."), "1"))));
+    EXPECT_THAT(entries, Not(Contains(Pair(HasSubstr("search."), "1"))));
   } else {
     EXPECT_THAT(entries, Contains(Pair(key, "1")));
   }
@@ -92,15 +86,14 @@ TEST_P(Presets, NameTheirSearchsVersionInTheAnswer) {
 
 TEST_P(Presets, MakeControlSoftwareThatReadsBack) {
   const Campaign campaign = campaign_of("method = \"" + GetParam().preset + "\"\n");
-  const auto space = MethodSpace::make(campaign.methods[0], 4);
-  ASSERT_TRUE(space);
+  const auto space = value_of(MethodSpace::make(campaign.methods[0], 4));
   Rng rng(3);
   for (int i = 0; i < 300; ++i) {
-    const Configuration drawn = sample_uniform(space->parameters(), rng).value();
-    const CandidateText text = space->text_of(drawn);
+    const Configuration drawn = sample_uniform(space.parameters(), rng).value();
+    const CandidateText text = space.text_of(drawn);
     const auto read = parse_controller(text.call, watermelon());
     ASSERT_TRUE(read) << text.call;
-    EXPECT_EQ(*read, space->controller_of(drawn));
+    EXPECT_EQ(*read, space.controller_of(drawn));
     EXPECT_EQ(architecture_of(*read), GetParam().architecture);
   }
 }
@@ -111,8 +104,8 @@ TEST(Methods, WithoutKeysAreIteratedRacesOfMachinesAndKeepTheirDigest) {
   EXPECT_EQ(campaign_digest(plain),
             campaign_digest(campaign_of("architecture = \"machine\"\nsearch = \"irace\"\n")));
   for (const auto& [key, value] : deciding(plain)) {
-    EXPECT_THAT(key, ::testing::Not(HasSubstr("search")));
-    EXPECT_THAT(key, ::testing::Not(HasSubstr("architecture")));
+    EXPECT_THAT(key, Not(HasSubstr("search")));
+    EXPECT_THAT(key, Not(HasSubstr("architecture")));
   }
 }
 
@@ -172,9 +165,8 @@ TEST(Methods, SaysWhatDoesNotFitTogether) {
 TEST(Methods, NameTheLeastBudgetThatWorks) {
   FileText file = file_of("method = \"evostick\"\n");
   file.race = "max_experiments = 500\n";
-  const auto read = parse_campaign(file.text(), "x.toml");
-  ASSERT_FALSE(read);
-  EXPECT_THAT(to_string(read.error().front()), HasSubstr("must be at least 1100"));
+  EXPECT_THAT(complaint_of(parse_campaign(file.text(), "x.toml")),
+              HasSubstr("must be at least 1100"));
 }
 
 TEST(Methods, OfBaselinesMayBeAnyArchitecture) {
@@ -182,9 +174,8 @@ TEST(Methods, OfBaselinesMayBeAnyArchitecture) {
       "baseline = \"--nroot 3 --nchildroot 1 --n0 0 --nchild0 2 --n00 6 --c00 0 --p00 1 --n01 5 "
       "--a01 1 --p01 0\"\n");
   EXPECT_THAT(campaign.methods[0].baseline, HasSubstr("--nroot 3"));
-  const auto again = parse_campaign(normalised_text(campaign), "x.toml");
-  ASSERT_TRUE(again) << to_string(again.error().front());
-  EXPECT_EQ(again->methods, campaign.methods);
+  const auto again = value_of(parse_campaign(normalised_text(campaign), "x.toml"));
+  EXPECT_EQ(again.methods, campaign.methods);
 }
 
 TEST(Methods, OfBaselinesAreNotSearchedFor) {
@@ -212,14 +203,8 @@ TEST(Methods, OfBaselinesAreNotSearchedFor) {
 
 TEST(Methods, SayAFaultOnceAndWhatWasMeant) {
   const auto complaints = [](const std::string& method) {
-    const auto read = parse_campaign(file_of(method).text(), "x.toml");
-    std::vector<std::string> all;
-    if (read) return all;
-    for (const Error& error : read.error())
-      all.push_back(to_string(error));
-    return all;
+    return complaints_of(parse_campaign(file_of(method).text(), "x.toml"));
   };
-  using ::testing::ElementsAre;
   EXPECT_THAT(complaints("method = \"evostick\"\narchitecture = \"machine\"\n"),
               ElementsAre(HasSubstr("says architecture and search already")));
   EXPECT_THAT(complaints("method = \"maple\"\nsearch = \"evolution\"\n"),
@@ -315,7 +300,7 @@ TEST(Methods, SayWhyAnFRaceIsTooSmallOrTooLarge) {
       complaint_about("method = \"vanilla\"\n[method.f-race]\nconfigurations = 50000\n");
   EXPECT_THAT(large, HasSubstr("`configurations` is 50000"));
   EXPECT_THAT(large, HasSubstr("at least 300000"));
-  EXPECT_THAT(large, ::testing::Not(HasSubstr("nb_configurations")));
+  EXPECT_THAT(large, Not(HasSubstr("nb_configurations")));
 }
 
 }  // namespace

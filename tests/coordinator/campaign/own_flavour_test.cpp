@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -12,13 +10,11 @@
 #include "sim/control/flavour_file.h"
 #include "sim/control/machine_text.h"
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 /// A method with a flavour of a file.
 const std::string kMethod = "name = \"m\"\nflavour = \"mine.toml\"\n";
@@ -35,31 +31,24 @@ class OwnFlavour : public ::testing::Test {
     return parse_campaign(file.text(), (folder_ / "x.toml").string());
   }
   std::vector<std::string> complaints(const std::string& flavour, const FileText& file) {
-    std::vector<std::string> lines;
-    const auto campaign = read(flavour, file);
-    if (campaign) return lines;
-    for (const Error& error : campaign.error())
-      lines.push_back(to_string(error));
-    return lines;
+    return complaints_of(read(flavour, file));
   }
 
   TemporaryFolder folder_;
 };
 
 TEST_F(OwnFlavour, LivesWholeInTheCampaignsText) {
-  const auto campaign = read(kSixStates, {.method = kMethod});
-  ASSERT_TRUE(campaign.has_value()) << to_string(campaign.error().front());
-  const Method& method = campaign->methods.front();
+  const auto campaign = value_of(read(kSixStates, {.method = kMethod}));
+  const Method& method = campaign.methods.front();
   EXPECT_EQ(method.flavour, "mine");
   ASSERT_NE(method.own_flavour, nullptr);
   EXPECT_EQ(method.own_flavour->most_states, 6);
   EXPECT_EQ(method.max_states, 6);
-  const std::string text = normalised_text(*campaign);
+  const std::string text = normalised_text(campaign);
   EXPECT_THAT(text, HasSubstr("[method.flavour]\nname = \"mine\"\n"));
-  const auto again = parse_campaign(text, "nowhere/stored.toml");
-  ASSERT_TRUE(again.has_value()) << to_string(again.error().front());
-  EXPECT_EQ(again->methods, campaign->methods);
-  EXPECT_EQ(campaign_digest(*again), campaign_digest(*campaign));
+  const auto again = value_of(parse_campaign(text, "nowhere/stored.toml"));
+  EXPECT_EQ(again.methods, campaign.methods);
+  EXPECT_EQ(campaign_digest(again), campaign_digest(campaign));
   EXPECT_THAT(own_flavours_in(text), ElementsAre(method.own_flavour));
   EXPECT_THAT(own_flavours_in(normalised_text(parsed(FileText().text()))), ElementsAre());
 }
@@ -98,16 +87,15 @@ TEST_F(OwnFlavour, DecidesTheDigestUnlessItIsBuiltIn) {
 TEST_F(OwnFlavour, ItsSpaceHasMachinesOfAllItsStates) {
   const auto campaign = read(kSixStates, {.method = kMethod});
   const Method& method = campaign->methods.front();
-  const auto space = MachineSpace::make(method, *method.own_flavour, 2);
-  ASSERT_TRUE(space.has_value());
+  const auto space = value_of(MachineSpace::make(method, *method.own_flavour, 2));
   Rng rng(3);
   std::size_t most = 0;
   for (int i = 0; i < 50; ++i) {
-    const Machine machine = space->to_machine(random_configuration(space->parameters(), rng));
+    const Machine machine = space.to_machine(random_configuration(space.parameters(), rng));
     most = std::max(most, machine.states.size());
     const std::string text = print_machine(machine, *method.own_flavour);
     EXPECT_EQ(parse_machine(text, *method.own_flavour).value(), machine);
-    EXPECT_EQ(space->to_machine(space->from_machine(machine)), machine);
+    EXPECT_EQ(space.to_machine(space.from_machine(machine)), machine);
   }
   EXPECT_EQ(most, 6U);
 }
@@ -126,9 +114,8 @@ TEST_F(OwnFlavour, ModulesThatOnlyOthersHaveAreForPrograms) {
                           .method = kMethod,
                           .rest = "[simulator]\nkind = \"command\"\ncommand = [\"/bin/true\"]\n"};
   EXPECT_THAT(complaints(kExternal, programs), ElementsAre());
-  const auto campaign = read(kExternal, programs);
-  ASSERT_TRUE(campaign.has_value()) << to_string(campaign.error().front());
-  const Method& method = campaign->methods.front();
+  const auto campaign = value_of(read(kExternal, programs));
+  const Method& method = campaign.methods.front();
   const auto space = MethodSpace::make(method, 2);
   ASSERT_TRUE(space.has_value());
   const auto machine = parse_machine("--nstates 1 --s0 9 --v0 1.5", *method.own_flavour);

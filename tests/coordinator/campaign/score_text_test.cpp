@@ -1,23 +1,19 @@
-#include <gmock/gmock.h>
-
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 #include "base/text/table_reader.h"
 #include "coordinator/campaign/campaign_text.h"
 #include "sim/files/color_text.h"
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 #include "tests/support/score_rules.h"
+#include "tests/support/temporary_folder.h"
 
 // What campaign files, their normalised text and their documentation say of scores, for every kind
 // in the list.
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 ScoreRule read(const std::string& score) {
   return parsed(FileText{.mission = "name = \"x\"\nscore = { " + score + " }\n"}.text())
@@ -103,15 +99,14 @@ struct Documented {
 };
 
 TEST(ScoreDocs, HaveARowForEachKindAndEachKey) {
-  std::stringstream page;
-  page << std::ifstream(SWARMSMITH_SOURCE_DIR "/docs/campaign-file.md").rdbuf();
+  const std::string page = whole_file(SWARMSMITH_SOURCE_DIR "/docs/campaign-file.md");
   for (const std::string& kind : not_empty(score_kinds())) {
-    EXPECT_THAT(page.str(), HasSubstr("\n| `\"" + kind + "\"` | ")) << "in the table of kinds";
+    EXPECT_THAT(page, HasSubstr("\n| `\"" + kind + "\"` | ")) << "in the table of kinds";
     Documented documented{.kind = kind};
     const ScoreRule rule = *score_of_kind(kind);
     visit_fields(rule, documented);
     for (const std::string& row : documented.rows)
-      EXPECT_NE(page.str().find("\n" + row), std::string::npos) << "docs lack the row\n" << row;
+      EXPECT_NE(page.find("\n" + row), std::string::npos) << "docs lack the row\n" << row;
   }
 }
 

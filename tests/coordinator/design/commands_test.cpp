@@ -1,14 +1,11 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 
 #include "tests/coordinator/design/idle_pool.h"
+#include "tests/support/checks.h"
 #include "tests/support/long_runs.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::HasSubstr;
 
 CommandRow cancel(std::int64_t number, std::int64_t design = 1) {
   return {.number = number, .kind = CommandKind::Cancel, .design = {design}, .who = "ann@lab"};

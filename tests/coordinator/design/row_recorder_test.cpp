@@ -1,10 +1,9 @@
 #include "coordinator/design/row_recorder.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "coordinator/design/candidate_totals.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -33,10 +32,9 @@ TEST(RowRecorder, GivesRowsFromTheLastStoredStepOn) {
 
 TEST(RowRecorder, FindsAStepThatTheStoreHasOtherwise) {
   RowRecorder recorder({1}, "profile", {11});
-  const auto recorded = recorder.record_step(step(12));
-  ASSERT_FALSE(recorded);
-  EXPECT_EQ(recorded.error().kind, ErrorKind::Corrupt);
-  EXPECT_NE(to_string(recorded.error()).find("d1, step 1"), std::string::npos);
+  const Error recorded = why_not(recorder.record_step(step(12)));
+  EXPECT_EQ(recorded.kind, ErrorKind::Corrupt);
+  EXPECT_THAT(to_string(recorded), HasSubstr("d1, step 1"));
 }
 
 TEST(RowRecorder, GivesEachPairOfAPurposeOnce) {

@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/design/plans.h"
@@ -7,17 +5,14 @@
 #include "storage/internal/sqlite.h"
 #include "storage/store.h"
 #include "tests/coordinator/design/idle_pool.h"
+#include "tests/support/checks.h"
 #include "tests/support/one_design.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
 
-using ::testing::Contains;
-using ::testing::ElementsAre;
 using ::testing::Gt;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 Campaign two_designs() {
   Campaign campaign = one_design_campaign();
@@ -34,12 +29,12 @@ class StoredCampaign : public ::testing::Test {
   template <class During>
   void go_on(const std::string& name, std::uint64_t seed, double looks, std::size_t limit,
              During during) {
-    auto store = Store::open(folder_ / name, campaign_row(campaign_), design_rows(campaign_));
-    ASSERT_TRUE(store) << to_string(store.error());
-    const auto commands = (*store)->commands();
-    const auto ended = ended_designs((*store)->design_states(), commands);
-    CampaignRunner runner(*plans_of(campaign_),
-                          by_design((*store)->scores(), (*store)->steps(), ended), ended, commands);
+    auto store =
+        value_of(Store::open(folder_ / name, campaign_row(campaign_), design_rows(campaign_)));
+    const auto commands = store->commands();
+    const auto ended = ended_designs(store->design_states(), commands);
+    CampaignRunner runner(*plans_of(campaign_), by_design(store->scores(), store->steps(), ended),
+                          ended, commands);
     ASSERT_FALSE(runner.error()) << to_string(*runner.error());
     Memory memory;
     memory.rows.emplace_back(
@@ -49,7 +44,7 @@ class StoredCampaign : public ::testing::Test {
       during(runner);
       pool.run(limit);
     }
-    (*store)->append(std::move(memory.rows));
+    store->append(std::move(memory.rows));
   }
   void go_on(const std::string& name, std::uint64_t seed, double looks,
              std::size_t limit = ~std::size_t{0}) {
@@ -59,9 +54,8 @@ class StoredCampaign : public ::testing::Test {
     return (*StoreReader::open(folder_ / name))->digest();
   }
   void expect_clean(const std::string& name) {
-    auto reader = StoreReader::open(folder_ / name);
-    ASSERT_TRUE(reader);
-    const Verification found = *verify(**reader);
+    auto reader = value_of(StoreReader::open(folder_ / name));
+    const Verification found = *verify(*reader);
     EXPECT_THAT(found.complaints, IsEmpty());
   }
 

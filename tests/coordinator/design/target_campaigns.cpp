@@ -1,11 +1,11 @@
 #include "tests/coordinator/design/target_campaigns.h"
 
-#include <gtest/gtest.h>
 #include <algorithm>
 #include <utility>
 
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/design/plans.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -29,11 +29,7 @@ parameters_text = '''
 )" + kParameters + "'''\n[race]\n" +
                            race + "\n[simulator]\nkind = \"command\"\ncommand = [\"./runner\"]\n" +
                            simulator;
-  auto campaign = parse_campaign(text, "x.toml");
-  if (campaign) return *campaign;
-  for (const Error& error : campaign.error())
-    ADD_FAILURE() << to_string(error);
-  return {};
+  return value_of(parse_campaign(text, "x.toml"));
 }
 
 std::vector<DesignPlan> plans(const Campaign& campaign) {

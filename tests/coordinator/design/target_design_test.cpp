@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <algorithm>
 #include <fstream>
 #include <set>
@@ -7,6 +5,7 @@
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
 #include "tests/coordinator/design/target_campaigns.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 #include "tests/support/temporary_folder.h"
 
@@ -96,7 +95,7 @@ TEST(TargetDesign, TestsOnFreshSeedsOfTheTrainingInstancesWithoutTestInstances) 
   std::vector<std::int64_t> instances;
   for (const Task& task : of_purpose(ran.tasks, Purpose::Test))
     instances.push_back(task.instance);
-  EXPECT_THAT(instances, testing::ElementsAre(1, 2, 3, 1));
+  EXPECT_THAT(instances, ElementsAre(1, 2, 3, 1));
 }
 
 TEST(TargetDesign, GoesOnFromAStoreAsIfNothingHadHappened) {
@@ -309,9 +308,8 @@ TEST(TargetDesign, AProgramRepairsWhatIsSampled) {
     EXPECT_LE(std::stoi(b), 50);
   }
   std::filesystem::remove(program);
-  const auto made = plans_of(campaign);
-  ASSERT_TRUE(made);
-  EXPECT_FALSE(DesignRunner::start(made->front(), {})) << "without its program nothing is sampled";
+  const auto made = value_of(plans_of(campaign));
+  EXPECT_FALSE(DesignRunner::start(made.front(), {})) << "without its program nothing is sampled";
 }
 
 TEST(TargetDesign, ARepairThatFailsIsNamedWithItsEnd) {
@@ -328,11 +326,8 @@ TEST(TargetDesign, ARepairThatFailsIsNamedWithItsEnd) {
     Campaign campaign = campaign_with("max_experiments = 300\n");
     campaign.repair = program;
     campaign.target->folder = folder.path();
-    const auto made = plans_of(campaign);
-    ASSERT_TRUE(made);
-    const auto runner = DesignRunner::start(made->front(), {});
-    ASSERT_FALSE(runner) << line;
-    EXPECT_THAT(to_string(runner.error()), testing::HasSubstr(reason)) << line;
+    const auto made = value_of(plans_of(campaign));
+    EXPECT_THAT(complaint_of(DesignRunner::start(made.front(), {})), HasSubstr(reason)) << line;
   }
 }
 

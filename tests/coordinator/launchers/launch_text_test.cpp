@@ -1,20 +1,16 @@
 #include "coordinator/launchers/launch_text.h"
 
-#include <gmock/gmock.h>
-
 #include "base/process/process.h"
 #include "coordinator/launchers/host_file.h"
 #include "coordinator/launchers/slurm_script.h"
 #include "coordinator/launchers/slurm_workers.h"
 #include "coordinator/launchers/ssh_workers.h"
 #include "coordinator/launchers/worker_program.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::StartsWith;
 using Kind = LaunchOptions::Kind;
 
 TEST(WorkersOption, NamesALauncher) {
@@ -35,9 +31,7 @@ TEST(WorkersOption, NamesALauncher) {
 
 TEST(WorkersOption, SaysWhatIsWrong) {
   for (const char* text : {"", "0", "-1", "1001", "many", "local:", "local:x", "Slurm", "slurmx"}) {
-    const auto options = parse_workers(text, {});
-    ASSERT_FALSE(options) << text;
-    EXPECT_THAT(options.error().message,
+    EXPECT_THAT(why_not(parse_workers(text, {})).message,
                 StartsWith("Value " + std::string(text) + " is none of: auto, N"));
   }
   for (const char* text : {"slurm:", "slurm:x", "slurm:4x", "slurm:0x4", "slurm:4x4x4"})
@@ -48,13 +42,12 @@ TEST(WorkersOption, SaysWhatIsWrong) {
 }
 
 TEST(HostFile, HasAHostALine) {
-  const auto hosts = parse_hosts(
-      "# the lab\nnode1\n\n  me@node2 \tslots=16   # the large one\r\n"
-      "node3 program=/opt/x key=/k coordinator=/c",
-      "hosts");
-  ASSERT_TRUE(hosts);
+  const auto hosts =
+      value_of(parse_hosts("# the lab\nnode1\n\n  me@node2 \tslots=16   # the large one\r\n"
+                           "node3 program=/opt/x key=/k coordinator=/c",
+                           "hosts"));
   EXPECT_THAT(
-      *hosts,
+      hosts,
       ElementsAre(SshHost{.name = "node1"}, SshHost{.name = "me@node2", .slots = 16},
                   SshHost{.name = "node3", .program = "/opt/x", .key = "/k", .coordinator = "/c"}));
 }
@@ -65,11 +58,8 @@ TEST(HostFile, ReportsEveryMistakeWithItsPlace) {
       "node6 slots=4.5 more\n",
       "in/hosts");
   ASSERT_FALSE(hosts);
-  std::vector<std::string> lines;
-  for (const Error& error : hosts.error())
-    lines.push_back(to_string(error));
   EXPECT_THAT(
-      lines,
+      lines_of(hosts.error()),
       ElementsAre(HasSubstr("in/hosts:1:1: a line begins with the host's name"),
                   HasSubstr("in/hosts:2:7: `slot=4` is none of slots=N, program=PATH, key=PATH, "
                             "coordinator=PATH (did you mean \"slots\"?)"),
@@ -81,9 +71,8 @@ TEST(HostFile, ReportsEveryMistakeWithItsPlace) {
 }
 
 TEST(HostFile, OfTheExamplesIsRight) {
-  const auto hosts = read_hosts(SWARMSMITH_SOURCE_DIR "/examples/cluster/hosts");
-  ASSERT_TRUE(hosts);
-  EXPECT_EQ(hosts->size(), 3U);
+  const auto hosts = value_of(read_hosts(SWARMSMITH_SOURCE_DIR "/examples/cluster/hosts"));
+  EXPECT_EQ(hosts.size(), 3U);
 }
 
 TEST(HostFile, WithoutHostsIsAMistake) {
@@ -111,16 +100,15 @@ TEST(SshCommand, HasFilesAndNoSecretsAndTheUsersOptionsFirst) {
   const auto elsewhere =
       ssh_words(options, {.name = "n", .program = "/bin/w", .key = "/k", .coordinator = "/c"});
   EXPECT_THAT(elsewhere.back(),
-              testing::EndsWith("exec '/bin/w' '--watch-input' '--coordinator' '/c' '--key' '/k'"));
+              EndsWith("exec '/bin/w' '--watch-input' '--coordinator' '/c' '--key' '/k'"));
 }
 
 TEST(ShellLine, IsTakenApartIntoTheSameWords) {
   const std::vector<std::string> words{"printf", "%s|", "a b", "", "it's", "$HOME `x` \"q\" \\",
                                        "\n"};
   const Interrupt never;
-  const auto end = run_process({.words = {"/bin/sh", "-c", shell_line(words)}}, never);
-  ASSERT_TRUE(end);
-  EXPECT_EQ(end->output.text, "a b||it's|$HOME `x` \"q\" \\|\n|");
+  const auto end = value_of(run_process({.words = {"/bin/sh", "-c", shell_line(words)}}, never));
+  EXPECT_EQ(end.output.text, "a b||it's|$HOME `x` \"q\" \\|\n|");
 }
 
 TEST(SlurmScript, HoldsAllThatSbatchNeeds) {

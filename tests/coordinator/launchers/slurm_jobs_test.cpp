@@ -1,14 +1,12 @@
 #include "coordinator/launchers/slurm_jobs.h"
 
-#include <gmock/gmock.h>
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using std::chrono::minutes;
 using std::chrono::seconds;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 /// A queue that a test fills, and a clock that it moves.
 class SlurmQueue : public testing::Test {
@@ -44,6 +42,10 @@ class SlurmQueue : public testing::Test {
     return submitted;
   }
 
+  void set_all(const std::string& state) {
+    for (QueuedJob& job : queue)
+      job.state = state;
+  }
   void set(std::size_t job, const std::string& state) { queue.at(job).state = state; }
 
   TimePoint now{minutes(1000)};
@@ -77,8 +79,7 @@ TEST_F(SlurmQueue, HasTheJobsOfAnEarlierCoordinator) {
 
 TEST_F(SlurmQueue, JobsThatEndAreReplacedAfterAPause) {
   step();
-  for (std::size_t i = 0; i < 4; ++i)
-    set(i, "RUNNING");
+  set_all("RUNNING");
   run_for(minutes(2));
   set(0, "NODE_FAIL");
   set(1, "COMPLETED");
@@ -91,8 +92,7 @@ TEST_F(SlurmQueue, JobsThatFailAtOnceAreReplacedMoreAndMoreSlowly) {
   std::int64_t early = 0;
   std::int64_t late = 0;
   for (int i = 0; i < 120; ++i) {
-    for (QueuedJob& job : queue)
-      job.state = "FAILED";
+    set_all("FAILED");
     (i < 10 ? early : late) += run_for(minutes(1));
   }
   EXPECT_GT(early, 8);
@@ -104,8 +104,7 @@ TEST_F(SlurmQueue, JobsThatFailAtOnceAreReplacedMoreAndMoreSlowly) {
 TEST_F(SlurmQueue, JobsThatCompleteAtOnceAgainAndAgainAreTheEnd) {
   for (int i = 0; i < 10 && jobs.trouble().empty(); ++i) {
     step();
-    for (QueuedJob& job : queue)
-      job.state = "COMPLETED";
+    set_all("COMPLETED");
     run_for(minutes(1));
   }
   EXPECT_THAT(jobs.trouble(), HasSubstr("is their program swarmsmith-worker?"));
@@ -117,8 +116,7 @@ TEST_F(SlurmQueue, JobsThatAreDrainedAfterAWhileAreReplacedForEver) {
     for (QueuedJob& job : queue)
       if (job.state == "PENDING") job.state = "RUNNING";
     run_for(minutes(2));
-    for (QueuedJob& job : queue)
-      job.state = "COMPLETED";
+    set_all("COMPLETED");
     run_for(minutes(12));
   }
   EXPECT_EQ(jobs.trouble(), "");
@@ -158,8 +156,7 @@ TEST_F(SlurmQueue, JobsSubmittedByHandCountAndAreNotCancelled) {
 
 TEST_F(SlurmQueue, WhatSlurmForgetsHasEnded) {
   step();
-  for (std::size_t i = 0; i < 4; ++i)
-    set(i, "RUNNING");
+  set_all("RUNNING");
   run_for(minutes(2));
   queue.pop_back();
   EXPECT_EQ(run_for(minutes(2)), 1);

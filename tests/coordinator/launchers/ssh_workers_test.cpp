@@ -2,12 +2,12 @@
 
 #include "coordinator/launchers/ssh_workers.h"
 
-#include <gmock/gmock.h>
 #include <algorithm>
 #include <fstream>
 #include <functional>
 #include <thread>
 
+#include "tests/support/checks.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 
@@ -15,7 +15,6 @@ namespace swarmsmith {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::HasSubstr;
 
 const std::string kConnected = "echo swarmsmith-worker: connected\n";
 
@@ -24,16 +23,13 @@ class Ssh : public testing::Test {
   /// Starts workers on the hosts by a shell script, whose last two words are host and command.
   SshWorkers start(const std::string& script, std::vector<SshHost> hosts) {
     const auto file = folder / "ssh";
-    std::ofstream(file) << "#!/bin/sh\nfor word; do host=$last; last=$word; done\n" << script;
-    std::filesystem::permissions(file, std::filesystem::perms(0755));
-    auto workers = SshWorkers::start({.hosts = std::move(hosts),
-                                      .address = {.endpoint = "tcp://h:1"},
-                                      .program = "/w",
-                                      .ssh = file.string(),
-                                      .first_pause = milliseconds(1),
-                                      .longest_pause = milliseconds(20)});
-    EXPECT_TRUE(workers);
-    return std::move(*workers);
+    write_script(file, "for word; do host=$last; last=$word; done\n" + script);
+    return value_of(SshWorkers::start({.hosts = std::move(hosts),
+                                       .address = {.endpoint = "tcp://h:1"},
+                                       .program = "/w",
+                                       .ssh = file.string(),
+                                       .first_pause = milliseconds(1),
+                                       .longest_pause = milliseconds(20)}));
   }
 
   static bool eventually(SshWorkers& workers, const std::function<bool()>& holds) {
@@ -139,9 +135,9 @@ TEST_F(Ssh, AProgramThatEndsAtOnceWithoutAnErrorIsNoWorker) {
 }
 
 TEST(SshProgram, ThatIsMissingIsSaid) {
-  const auto workers = SshWorkers::start({.hosts = {{"a"}}, .program = "/w", .ssh = "no-such-ssh"});
-  ASSERT_FALSE(workers);
-  EXPECT_THAT(workers.error().message, HasSubstr("install the package openssh-client"));
+  EXPECT_THAT(
+      complaint_of(SshWorkers::start({.hosts = {{"a"}}, .program = "/w", .ssh = "no-such-ssh"})),
+      HasSubstr("install the package openssh-client"));
 }
 
 }  // namespace

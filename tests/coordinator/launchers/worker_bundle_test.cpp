@@ -3,7 +3,6 @@
 
 #include "coordinator/launchers/worker_bundle.h"
 
-#include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <fstream>
 #include <functional>
@@ -13,6 +12,7 @@
 #include "base/text/sha256.h"
 #include "coordinator/launchers/ssh_workers.h"
 #include "coordinator/launchers/worker_program.h"
+#include "tests/support/checks.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,11 +20,6 @@ namespace swarmsmith {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::AllOf;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
 
 class Bundles : public testing::Test {
  protected:
@@ -100,7 +95,7 @@ class Bundles : public testing::Test {
   }
   /// Whether all files of the bundle are in the cache, and nothing else.
   void expect_installed(const WorkerBundle& bundle) const {
-    EXPECT_THAT(cached(), testing::ElementsAre(bundle.folder));
+    EXPECT_THAT(cached(), ElementsAre(bundle.folder));
     const fs::path place = cache / bundle.folder;
     EXPECT_EQ(shell("cd " + place.string() + " && sha256sum -c SHA256SUMS && ls").output,
               "lib/libbig.so: OK\nswarmsmith-worker: OK\nSHA256SUMS\nlib\nswarmsmith-worker\n");
@@ -111,11 +106,10 @@ class Bundles : public testing::Test {
 };
 
 TEST_F(Bundles, AreFoundByVersionAndNamedByHash) {
-  const auto none = find_bundles();
-  ASSERT_FALSE(none);
-  EXPECT_THAT(to_string(none.error()), AllOf(StartsWith((folder / "bundles").string() + ": "),
-                                             HasSubstr("`./dev bundle` makes swarmsmith-worker-"),
-                                             HasSubstr("SWARMSMITH_BUNDLES")));
+  EXPECT_THAT(
+      complaint_of(find_bundles()),
+      AllOf(StartsWith((folder / "bundles").string() + ": "),
+            HasSubstr("`./dev bundle` makes swarmsmith-worker-"), HasSubstr("SWARMSMITH_BUNDLES")));
   pack("#!/bin/sh\n", "aarch64");
   pack("#!/bin/sh\n");
   const auto bundles = find_bundles();
@@ -129,9 +123,7 @@ TEST_F(Bundles, AreFoundByVersionAndNamedByHash) {
 
   const fs::path archive = bundles->front().archive;
   fs::resize_file(archive, fs::file_size(archive) / 2);
-  const auto damaged = find_bundles();
-  ASSERT_FALSE(damaged);
-  EXPECT_THAT(to_string(damaged.error()), HasSubstr("x86_64.tar.xz: the bundle is damaged"));
+  EXPECT_THAT(complaint_of(find_bundles()), HasSubstr("x86_64.tar.xz: the bundle is damaged"));
 }
 
 TEST_F(Bundles, WhatArrivesInPartIsNotThere) {
@@ -217,16 +209,15 @@ TEST_F(Bundles, SomebodyElseMayInstallItMeanwhile) {
 TEST_F(Bundles, AHostStartsWhatItNeeds) {
   pack("#!/bin/sh\necho \"x86_64 $#: $*\"\n");
   pack("#!/bin/sh\necho \"aarch64 $#: $*\"\n", "aarch64");
-  const auto bundles = find_bundles();
-  ASSERT_TRUE(bundles);
+  const auto bundles = value_of(find_bundles());
   const std::string host = (folder / "host").string();
   const auto start = [&] {
-    return run({host, shell_line(start_words(*bundles, {}, {"--key", "it's 1"}))});
+    return run({host, shell_line(start_words(bundles, {}, {"--key", "it's 1"}))});
   };
-  for (const WorkerBundle& bundle : *bundles) {
+  for (const WorkerBundle& bundle : bundles) {
     write("bin/uname", "#!/bin/sh\necho " + bundle.architecture + "\n");
     const Said lacking = start();
-    EXPECT_EQ(lacking.code, kNotInCache + (&bundle - bundles->data()));
+    EXPECT_EQ(lacking.code, kNotInCache + (&bundle - bundles.data()));
     EXPECT_THAT(lacking.errors, EndsWith(" has no worker for " + bundle.architecture + "\n"));
     ASSERT_EQ(send(bundle).code, 0);
     EXPECT_EQ(start().output, bundle.architecture + " 2: --key it's 1\n");
@@ -239,7 +230,7 @@ TEST_F(Bundles, AHostStartsWhatItNeeds) {
   fs::remove(folder / "bin/uname");
   write("bin/uname", "#!/bin/sh\necho x86_64\n");
   setenv("BEFORE", "XDG_CACHE_HOME=/nowhere; ", 1);
-  EXPECT_EQ(run({host, shell_line(start_words(*bundles, cache, {}))}).output, "x86_64 0: \n");
+  EXPECT_EQ(run({host, shell_line(start_words(bundles, cache, {}))}).output, "x86_64 0: \n");
 }
 
 class ShippedBySsh : public Bundles {

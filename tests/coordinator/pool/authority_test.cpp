@@ -37,8 +37,7 @@ TEST_F(Authority, RefusesAResultThatWasNeverLeased) {
 
 TEST_F(Authority, RefusesAResultOfSomebodyElsesLease) {
   hello(1), hello(2);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(2, 1, 99);
   answer(2, 1, 0, "because");
   answer(2, {.key = key(1), .attempt = 1, .rejected = true});
@@ -50,8 +49,7 @@ TEST_F(Authority, RefusesAResultOfSomebodyElsesLease) {
 
 TEST_F(Authority, ComparesNothingThatWasNeverLeased) {
   hello(1), hello(2);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, 1, 2.5);
   answer(2, 1, 99);
   EXPECT_TRUE(all<ConflictFound>().empty());
@@ -61,17 +59,12 @@ TEST_F(Authority, ComparesNothingThatWasNeverLeased) {
 
 TEST_F(Authority, TakesAResultWhoseLeaseHasExpired) {
   hello(1), hello(2);
-  credit(1, 1);
-  want(1, 1);
-  const std::uint64_t signature = all<SendTasks>().back().tasks.back().signature;
-  const std::vector<PackedKey> keys{key(1)};
-  scheduler.on_returned({1, 1, ++sequence}, keys, now);
-  move();
+  give(1, 1);
+  const std::uint64_t signature = give_back(1, 1);
   credit(2, 1);
   ASSERT_EQ(given[2].size(), 1U);
   answer(1, {.key = key(1), .attempt = 1, .measured = {.score = 2.5}, .signature = signature});
-  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.worker, 1);
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.worker, 1);
 }
 
 TEST_F(Authority, TakesALeaseOfAProcessThatCrashed) {
@@ -107,8 +100,7 @@ TEST_F(Authority, RefusesALeaseOfAnotherTaskUnderTheSameKey) {
 
 TEST_F(Authority, AsksForADisputedResultAgainUntilTheRaceTellsTheTask) {
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, 1, 3);
   resend(1, 1, 4);
   const std::size_t acknowledged = all<OutcomeRepeated>().size();
@@ -124,8 +116,7 @@ TEST_F(Authority, AsksForADisputedResultAgainUntilTheRaceTellsTheTask) {
 
 TEST_F(Authority, AcknowledgesADisputedResultOfACampaignThatIsOver) {
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, 1, 3);
   scheduler.close(0, true);
   resend(1, 1, 4);
@@ -180,8 +171,7 @@ TEST_F(Authority, KeepsTheIdsOfPrincipalsApart) {
 
 TEST_F(Authority, HoldsBackWhatANewcomerSaysUntilTheRefereeAgrees) {
   enter(1, "10.0.0.1", 4);
-  credit(1, 4);
-  want(1, 4);
+  give(1, 1, 4);
   ASSERT_EQ(given[1].size(), 4U);
   for (std::int64_t i = 1; i <= 4; ++i)
     answer(1, i);
@@ -196,8 +186,7 @@ TEST_F(Authority, HoldsBackWhatANewcomerSaysUntilTheRefereeAgrees) {
 TEST_F(Authority, DropsEverythingThatALiarSaidWhenItsFirstWordIsWrong) {
   hello(2);
   enter(1, "10.0.0.1", 4);
-  credit(1, 4);
-  want(1, 4);
+  give(1, 1, 4);
   for (const std::int64_t i : given[1])
     answer(1, i, 99);
   const auto lies = static_cast<std::int64_t>(given[1].size());
@@ -218,30 +207,25 @@ TEST_F(Authority, DropsEverythingThatALiarSaidWhenItsFirstWordIsWrong) {
 }
 
 TEST_F(Authority, StopsTheCampaignWhenAWorkerThatWasBelievedLies) {
-  options.campaigns[0].audit_every = 1;
-  scheduler = Scheduler(options);
+  audit_every(1);
   enter(1, "10.0.0.1");
   prove(1, 1);
-  credit(1, 1);
-  want(10, 1);
+  give(1, 10);
   answer(1, 10, 99);
   ASSERT_EQ(all<OutcomeAccepted>().size(), 3U);
   ASSERT_EQ(asked(), key(10));
   rule_score(10);
-  ASSERT_EQ(all<StopCampaign>().size(), 1U);
-  EXPECT_TRUE(all<StopCampaign>()[0].distrusted);
-  const std::string reason = all<StopCampaign>()[0].reason;
+  EXPECT_TRUE(only<StopCampaign>().distrusted);
+  const std::string reason = only<StopCampaign>().reason;
   for (const char* part : {"10.0.0.1", "99", "1 results", "--without-key \"10.0.0.1\""})
     EXPECT_NE(reason.find(part), std::string::npos) << reason;
   EXPECT_EQ(std::ranges::count(kinds(), "a stored score is wrong"), 1);
 }
 
 TEST_F(Authority, GoesOnWhenTheRefereeFindsTheSameBits) {
-  options.campaigns[0].audit_every = 1;
-  scheduler = Scheduler(options);
+  audit_every(1);
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, 1, 3);
   EXPECT_TRUE(scheduler.is_auditing());
   rule_score(1, 3);
@@ -252,11 +236,9 @@ TEST_F(Authority, GoesOnWhenTheRefereeFindsTheSameBits) {
 }
 
 TEST_F(Authority, RemembersWhatWasMadeAgain) {
-  options.campaigns[0].audit_every = 1;
-  scheduler = Scheduler(options);
+  audit_every(1);
   hello(1);
-  credit(1, 2);
-  want(1, 2);
+  give(1, 1, 2);
   answer(1, 1, 3), answer(1, 2, 4);
   rule_score(1, 3);
   const auto ended = all<AttemptEnded>();
@@ -266,8 +248,7 @@ TEST_F(Authority, RemembersWhatWasMadeAgain) {
 }
 
 TEST_F(Authority, MakesAgainWhatAProcessThatCrashedHadChosen) {
-  options.campaigns[0].audit_every = 1;
-  scheduler = Scheduler(options);
+  audit_every(1);
   const auto stored = [](std::int64_t candidate, std::int64_t worker) {
     return StoredScore{.key = unpack(key(candidate)),
                        .measured = {.score = 99, .state_digest = 5},
@@ -284,30 +265,25 @@ TEST_F(Authority, MakesAgainWhatAProcessThatCrashedHadChosen) {
   EXPECT_TRUE(scheduler.is_auditing());
   ASSERT_EQ(asked(), key(1));
   rule_score(1, 3);
-  ASSERT_EQ(all<StopCampaign>().size(), 1U);
-  EXPECT_TRUE(all<StopCampaign>()[0].distrusted);
+  EXPECT_TRUE(only<StopCampaign>().distrusted);
 }
 
 TEST_F(Authority, MakesNothingAgainWhereNobodyWantsAudits) {
-  options.campaigns[0].audit_every = 0;
-  scheduler = Scheduler(options);
+  audit_every(0);
   enter(1, "10.0.0.1");
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, 1, 3);
   EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
   EXPECT_FALSE(asked());
 }
 
 TEST_F(Authority, MakesTheFirstResultsAgainMoreOften) {
-  options.campaigns[0].audit_every = 1'000'000;
-  scheduler = Scheduler(options);
+  audit_every(1'000'000);
   enter(1, "10.0.0.1");
   prove(1, 1);
   std::size_t audited = ruled;
   for (std::int64_t i = 10; i < 210; ++i) {
-    credit(1, 1);
-    want(i, 1);
+    give(1, i);
     answer(1, i);
     if (asked()) rule_score(i);
     credit(1, 0);
@@ -321,22 +297,19 @@ TEST_F(Authority, MakesTheFirstResultsAgainMoreOften) {
 
 TEST_F(Authority, BringsARejectionBeforeTheReferee) {
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, {.key = key(1), .attempt = 1, .rejected = true});
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
   ASSERT_EQ(asked(), key(1));
   rule_score(1, 2);
-  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Ok);
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.status, EvaluationStatus::Ok);
 }
 
 TEST_F(Authority, QuarantinesWhoClaimsFailuresThatAreNone) {
   enter(1, "10.0.0.1");
   for (std::int64_t i = 1; i <= 5; ++i) {
     EXPECT_EQ(scheduler.counters().quarantined, 0U);
-    credit(1, 1);
-    want(i, 1);
+    give(1, i);
     answer(1, {.key = key(i), .attempt = 1, .rejected = true});
     ASSERT_EQ(asked(), key(i));
     rule_score(i);
@@ -350,8 +323,7 @@ TEST_F(Authority, QuarantinesWhoClaimsFailuresThatAreNone) {
 TEST_F(Authority, DoesNotQuarantineForEvaluationsThatFailEverywhere) {
   hello(1);
   for (std::int64_t i = 1; i <= 8; ++i) {
-    credit(1, 1);
-    want(i, 1);
+    give(1, i);
     answer(1, i, 0, "planted");
     rule_rejected(i);
     credit(1, 0);
@@ -397,12 +369,10 @@ TEST_F(Authority, GivesNothingMoreToWhoDisputesManyKnownResults) {
 
 TEST_F(Authority, StopsWhereTheRefereeCannotSay) {
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, 1, 0, "not a number");
   rule({.key = key(1), .kind = Ruling::Kind::NoWord, .reason = "no memory"});
-  ASSERT_EQ(all<StopCampaign>().size(), 1U);
-  EXPECT_NE(all<StopCampaign>()[0].reason.find("no memory"), std::string::npos);
+  EXPECT_NE(only<StopCampaign>().reason.find("no memory"), std::string::npos);
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
 }
 
@@ -410,8 +380,7 @@ TEST_F(Authority, StopsWhereTheRefereeCannotSay) {
 
 TEST_F(Authority, KeepsALiarInQuarantineUnderEveryId) {
   enter(1, "10.0.0.1", 1, 1, "node");
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, 1, 99);
   rule_score(1);
   ASSERT_EQ(scheduler.counters().quarantined, 1U);
@@ -455,9 +424,8 @@ TEST_F(Authority, TellsAWorkerThatItIsInQuarantineAndWhenThatIsOver) {
   want(1, 3);
   answer(1, 1, 99);
   rule_score(1);
-  ASSERT_EQ(all<SendNotice>().size(), 1U);
-  EXPECT_EQ(all<SendNotice>()[0].peer, 1U);
-  EXPECT_NE(all<SendNotice>()[0].sentence.find("it gave 99"), std::string::npos);
+  EXPECT_EQ(only<SendNotice>().peer, 1U);
+  EXPECT_NE(only<SendNotice>().sentence.find("it gave 99"), std::string::npos);
   credit(1, 1);
   const std::size_t before = given[1].size();
   EXPECT_TRUE(scheduler.forgive("10.0.0.9", "a person", now).empty());
@@ -486,8 +454,7 @@ TEST_F(Authority, BlamesAProcessWhereThereAreNoKeys) {
   enter(1, "127.0.0.1");
   prove(1, 1);
   enter(2, "127.0.0.1");
-  credit(2, 1);
-  want(10, 1);
+  give(2, 10);
   ASSERT_EQ(given[2], std::vector<std::int64_t>{10});
   answer(2, 10, 99);
   EXPECT_EQ(all<OutcomeAccepted>().size(), 2U) << "that the other one is known says nothing of it";
@@ -501,34 +468,29 @@ TEST_F(Authority, BlamesAProcessWhereThereAreNoKeys) {
   enter(3, "127.0.0.1");
   EXPECT_EQ(scheduler.workers().trusted(), 2U);
   sequence = 100;  // of the first one's connection
-  credit(1, 1);
-  want(20, 1);
+  give(1, 20);
   EXPECT_EQ(given[1].back(), 20);
 }
 
 TEST_F(Authority, BelievesNothingOfAnEarlierProcessThatMayHaveBeenTheLiar) {
   enter(1, "127.0.0.1");
   prove(1, 1);
-  credit(1, 1);
-  want(5, 1);
+  give(1, 5);
   answer(1, 5);
   if (asked()) rule_score(5);
   // A result of it that was not made again; then it leaves, and one comes that lies.
   for (std::int64_t i = 6; i < 60; ++i) {
-    credit(1, 1);
-    want(i, 1);
+    give(1, i);
     answer(1, i);
     if (asked()) rule_score(i);
   }
   scheduler.on_goodbye({1, 1, ++sequence}, now);
   move();
   enter(2, "127.0.0.1");
-  credit(2, 1);
-  want(100, 1);
+  give(2, 100);
   answer(2, 100, 99);
   rule_score(100);
-  ASSERT_EQ(all<StopCampaign>().size(), 1U);
-  EXPECT_TRUE(all<StopCampaign>()[0].distrusted);
+  EXPECT_TRUE(only<StopCampaign>().distrusted);
 }
 
 TEST_F(Authority, QuarantinesAHostWithoutKeysAfterThreeLiars) {
@@ -536,8 +498,7 @@ TEST_F(Authority, QuarantinesAHostWithoutKeysAfterThreeLiars) {
     enter(peer, "127.0.0.1");
     ASSERT_EQ(scheduler.workers().trusted(), 1U);
     const auto candidate = static_cast<std::int64_t>(peer);
-    credit(peer, 1);
-    want(candidate, 1);
+    give(peer, candidate);
     answer(peer, candidate, 99);
     rule_score(candidate);
   }
@@ -564,12 +525,8 @@ TEST_F(Authority, LetsTheRefereeJudgeWhoContradictsAStoredScore) {
   prove(1, 1);
   enter(2, "10.0.0.2");
   prove(2, 3);
-  credit(1, 1);
-  want(10, 1);
-  const std::uint64_t signature = all<SendTasks>().back().tasks.back().signature;
-  const std::vector<PackedKey> keys{key(10)};
-  scheduler.on_returned({1, 1, ++sequence}, keys, now);
-  move();
+  give(1, 10);
+  const std::uint64_t signature = give_back(1, 10);
   credit(2, 1);
   answer(2, 10, 1, "", 2);
   if (asked()) rule_score(10);
@@ -590,12 +547,8 @@ TEST_F(Authority, LetsTheRefereeJudgeWhoContradictsAStoredScore) {
 
 TEST_F(Authority, StopsWhenAStoredScoreIsWrong) {
   hello(1), hello(2);
-  credit(1, 1);
-  want(1, 1);
-  const std::uint64_t signature = all<SendTasks>().back().tasks.back().signature;
-  const std::vector<PackedKey> keys{key(1)};
-  scheduler.on_returned({1, 1, ++sequence}, keys, now);
-  move();
+  give(1, 1);
+  const std::uint64_t signature = give_back(1, 1);
   credit(2, 1);
   answer(2, 1, 99, "", 2);
   answer(1, {.key = key(1),
@@ -604,8 +557,7 @@ TEST_F(Authority, StopsWhenAStoredScoreIsWrong) {
              .signature = signature});
   dispute(1);
   rule_score(1);
-  ASSERT_EQ(all<StopCampaign>().size(), 1U);
-  EXPECT_TRUE(all<StopCampaign>()[0].distrusted);
+  EXPECT_TRUE(only<StopCampaign>().distrusted);
 }
 
 }  // namespace

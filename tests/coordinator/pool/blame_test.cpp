@@ -14,8 +14,7 @@ class Blame : public Schedulers {
  protected:
   void leave(PeerId peer, bool silent = false) {
     if (silent) now += seconds(3);
-    scheduler.on_unreachable(peer, now);
-    move();
+    lose(peer);
   }
 };
 
@@ -166,8 +165,7 @@ class BlameOfPrograms : public Blame {
 TEST_F(BlameOfPrograms, CountsDeathsOfThoseWhoHaveProvedThemselves) {
   for (PeerId peer = 1; peer <= 6; ++peer) {
     enter(peer, "10.0.0." + std::to_string(peer));
-    credit(peer, 1);
-    want(100 + peer, 1);
+    give(peer, 100 + peer);
     answer(peer, 100 + peer);
     credit(peer, 0);
   }
@@ -192,8 +190,7 @@ TEST_F(BlameOfPrograms, StrangersCannotRejectByDying) {
 TEST_F(BlameOfPrograms, OnePrincipalCannotRejectByDyingWhereThereAreOthers) {
   for (PeerId peer = 1; peer <= 2; ++peer) {
     enter(peer, "10.0.0." + std::to_string(peer));
-    credit(peer, 1);
-    want(100 + peer, 1);
+    give(peer, 100 + peer);
     answer(peer, 100 + peer);
     credit(peer, 0);
   }

@@ -1,11 +1,10 @@
 #include "coordinator/pool/budgets.h"
 
-#include <gtest/gtest.h>
-
 #include "coordinator/service/coordinator.h"
 #include "proto/wire.h"
 #include "proto/wire.pb.h"
 #include "tests/coordinator/synthetic_campaign.h"
+#include "tests/support/checks.h"
 #include "tests/support/flat_campaign.h"
 
 namespace swarmsmith {
@@ -45,7 +44,7 @@ TEST(Budget, WhatIsLeftOutIsToldOnceAMinute) {
   const auto news = budgets.take_news(at(61));
   ASSERT_EQ(news.size(), 1U);
   EXPECT_EQ(news[0].kind, "over budget");
-  EXPECT_NE(news[0].text.find("\"times\":1"), std::string::npos) << news[0].text;
+  EXPECT_THAT(news[0].text, HasSubstr("\"times\":1"));
   EXPECT_TRUE(budgets.take_news(at(200)).empty());
   EXPECT_EQ(budgets.left_out().at("hello"), 1001U);
 }
@@ -241,11 +240,10 @@ class GuestsWithPrograms : public Guests {
     answer.set_incarnation(1);
     for (const std::string& frame : std::exchange(frames, {})) {
       google::protobuf::Arena arena;
-      const auto message = decode_to_worker(frame, arena);
-      ASSERT_TRUE(message);
-      if (!(*message)->has_tasks()) continue;
-      answer.mutable_results()->set_scenario((*message)->tasks().scenario());
-      for (const pb::Task& task : (*message)->tasks().tasks()) {
+      const auto message = value_of(decode_to_worker(frame, arena));
+      if (!message->has_tasks()) continue;
+      answer.mutable_results()->set_scenario(message->tasks().scenario());
+      for (const pb::Task& task : message->tasks().tasks()) {
         pb::Result& result = *answer.mutable_results()->add_results();
         *result.mutable_key() = task.key();
         result.set_attempt(task.attempt());

@@ -68,8 +68,7 @@ TEST_F(ProgramSchedulers, NeverLeaseTwiceWhileTheWorkerRuns) {
 
 TEST_F(ProgramSchedulers, LeaveWhatWaitsBehindALongProgram) {
   hello(1, 1);
-  credit(1, 4);
-  want(1, 4);
+  give(1, 1, 4);
   answer(1, {.key = key(1), .attempt = 1, .measured = {.score = 1, .wall_us = 3000}});
   ASSERT_EQ(given[1], (std::vector<std::int64_t>{1, 2, 3}));
   hello(2, 1);
@@ -105,13 +104,10 @@ TEST_F(ProgramSchedulers, RunAgainWhatALostWorkerHad) {
 
 TEST_F(ProgramSchedulers, RejectWhatFailedOnce) {
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, failed(1));
-  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
-  ASSERT_EQ(all<FailureKept>().size(), 1U);
-  const FailureRow row = all<FailureKept>()[0].row;
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.status, EvaluationStatus::Rejected);
+  const FailureRow row = only<FailureKept>().row;
   EXPECT_EQ(row.key, unpack(key(1)));
   EXPECT_EQ(row.reason, "it printed apples");
   EXPECT_EQ(row.command, "runner 1 2");
@@ -125,13 +121,11 @@ TEST_F(ProgramSchedulers, StopWithTheWholeStoryWhereTheyMustNotReject) {
   options.campaigns[0].stop_on_failure = true;
   scheduler = Scheduler(options);
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, failed(1));
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
   EXPECT_EQ(all<FailureKept>().size(), 1U);
-  ASSERT_EQ(all<StopCampaign>().size(), 1U);
-  const std::string reason = all<StopCampaign>()[0].reason;
+  const std::string reason = only<StopCampaign>().reason;
   for (const char* part :
        {"it printed apples", "runner 1 2", "apples\n", "no tree\n", "by hand", "table `failure`"}) {
     EXPECT_NE(reason.find(part), std::string::npos) << reason;
@@ -140,8 +134,7 @@ TEST_F(ProgramSchedulers, StopWithTheWholeStoryWhereTheyMustNotReject) {
 
 TEST_F(ProgramSchedulers, TakeTheFirstOfTwoResults) {
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, 1, 2.5);
   resend(1, 1, 2.6);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.score, 2.5);
@@ -151,20 +144,17 @@ TEST_F(ProgramSchedulers, TakeTheFirstOfTwoResults) {
 
 TEST_F(ProgramSchedulers, TakeARejectionAndItsTime) {
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, {.key = key(1), .attempt = 1, .measured = {.score = 9, .time = 3}, .rejected = true});
-  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.score, 0) << "a rejection has no score";
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.time, 3);
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.measured.score, 0) << "a rejection has no score";
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.status, EvaluationStatus::Rejected);
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.measured.time, 3);
   EXPECT_TRUE(all<FailureKept>().empty());
 }
 
 TEST_F(Schedulers, KeepEveryFailureOfTheSimulatorToo) {
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, 1, 0, "no luck");
   rule_rejected(1);
   ASSERT_EQ(all<FailureKept>().size(), 2U);

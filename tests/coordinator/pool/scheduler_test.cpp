@@ -38,32 +38,27 @@ TEST_F(Schedulers, CloseAMessageAtSixtyFourTasks) {
 
 TEST_F(Schedulers, AcceptTheFirstResultAndDropTheSecond) {
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, 1, 2.5);
   resend(1, 1, 2.5);
-  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.score, 2.5);
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.measured.score, 2.5);
   EXPECT_EQ(all<OutcomeRepeated>().size(), 1U);
   EXPECT_TRUE(all<ConflictFound>().empty());
 }
 
 TEST_F(Schedulers, ReportASecondResultWithOtherBits) {
   hello(1);
-  credit(1, 1);
-  want(1, 1);
+  give(1, 1);
   answer(1, 1, 2.5);
   resend(1, 1, 2.6);
   dispute(1);
-  ASSERT_EQ(all<ConflictFound>().size(), 1U);
-  EXPECT_EQ(all<ConflictFound>()[0].row.kept_score, 2.5);
-  EXPECT_EQ(all<ConflictFound>()[0].row.other_score, 2.6);
+  EXPECT_EQ(only<ConflictFound>().row.kept_score, 2.5);
+  EXPECT_EQ(only<ConflictFound>().row.other_score, 2.6);
 }
 
 TEST_F(Schedulers, AcknowledgeWhateverComesOfADesignThatIsOver) {
   hello(1);
-  credit(1, 2);
-  want(1, 2);
+  give(1, 1, 2);
   answer(1, 1, 2.5);
   scheduler.close_design(0, {1});
   resend(1, 1, 2.6);
@@ -90,9 +85,8 @@ TEST_F(Schedulers, IgnoreAResultThatNobodyWants) {
 
 TEST_F(Schedulers, RefuseAnotherEngine) {
   hello(1, 1, 1, 99);
-  ASSERT_EQ(all<SendReject>().size(), 1U);
-  EXPECT_EQ(all<SendReject>()[0].reason, RejectReason::Build);
-  EXPECT_NE(all<SendReject>()[0].sentence.find("version 99"), std::string::npos);
+  EXPECT_EQ(only<SendReject>().reason, RejectReason::Build);
+  EXPECT_NE(only<SendReject>().sentence.find("version 99"), std::string::npos);
   EXPECT_EQ(scheduler.workers().connected(), 0U);
 }
 
@@ -143,8 +137,7 @@ TEST_F(Schedulers, AskTheRefereeAfterADeathAlone) {
     credit(peer, 10);
     ASSERT_EQ(given[peer].size(), 1U);
     scheduler.on_began({peer, 1, 2}, key(1), now);
-    scheduler.on_unreachable(peer, now);
-    move();
+    lose(peer);
   }
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
   ASSERT_EQ(asked(), key(1));
@@ -152,8 +145,7 @@ TEST_F(Schedulers, AskTheRefereeAfterADeathAlone) {
   credit(3, 10);
   EXPECT_TRUE(given[3].empty()) << "no other worker gets it meanwhile";
   rule_rejected(1);
-  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.status, EvaluationStatus::Rejected);
 }
 
 TEST_F(Schedulers, TakeTheRefereesScoreWhereAWorkerDiedByAccident) {
@@ -162,13 +154,11 @@ TEST_F(Schedulers, TakeTheRefereesScoreWhereAWorkerDiedByAccident) {
     hello(peer);
     credit(peer, 10);
     scheduler.on_began({peer, 1, 2}, key(1), now);
-    scheduler.on_unreachable(peer, now);
-    move();
+    lose(peer);
   }
   rule_score(1, 4.5);
-  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.score, 4.5);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.worker, 0);
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.measured.score, 4.5);
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.worker, 0);
   EXPECT_EQ(scheduler.counters().quarantined, 0U) << "a death is not a lie";
 }
 
@@ -178,8 +168,7 @@ TEST_F(Schedulers, CountNoDeathOfAWorkerThatDidNotBegin) {
     hello(peer);
     credit(peer, 10);
     ASSERT_EQ(given[peer].size(), 1U);
-    scheduler.on_unreachable(peer, now);
-    move();
+    lose(peer);
   }
   EXPECT_FALSE(asked());
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
@@ -204,8 +193,7 @@ TEST_F(Schedulers, TakeBackADeathWhenTheWorkerComesAgain) {
   credit(1, 10);
   std::uint64_t incarnation = 1;
   for (int i = 0; i < 10; ++i) {
-    scheduler.on_unreachable(1, now);
-    move();
+    lose(1);
     hello(1, 1, ++incarnation);
     credit(1, 10, incarnation);
   }
@@ -222,8 +210,7 @@ TEST_F(Schedulers, BringAFailureBeforeTheReferee) {
   ASSERT_EQ(asked(), key(1));
   answer(1, 1, 0, "not a number");  // said twice
   rule_rejected(1);
-  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.status, EvaluationStatus::Rejected);
   EXPECT_FALSE(asked());
 }
 
@@ -238,16 +225,14 @@ TEST_F(Schedulers, BringATimeoutBeforeTheRefereeAfterTheRetries) {
   ASSERT_EQ(asked(), key(1));
   EXPECT_TRUE(all<StopCampaign>().empty());
   rule({.key = key(1), .kind = Ruling::Kind::TimedOut, .reason = "took longer"});
-  ASSERT_EQ(all<StopCampaign>().size(), 1U);
-  EXPECT_FALSE(all<StopCampaign>()[0].distrusted);
+  EXPECT_FALSE(only<StopCampaign>().distrusted);
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
 }
 
 TEST_F(Schedulers, LetALeaseExpireThatMakesNoProgress) {
   hello(1);
   hello(2);
-  credit(1, 2);
-  want(1, 2);
+  give(1, 1, 2);
   EXPECT_EQ(given[1].size(), 1U);
   for (int i = 0; i < 7; ++i) {
     beat(1, {{key(1), i * 1000}}, 2);
@@ -331,8 +316,7 @@ TEST_F(Schedulers, AreFullAtTheLimit) {
   scheduler = Scheduler(small);
   hello(1);
   hello(2);
-  ASSERT_EQ(all<SendReject>().size(), 1U);
-  EXPECT_EQ(all<SendReject>()[0].reason, RejectReason::Limit);
+  EXPECT_EQ(only<SendReject>().reason, RejectReason::Limit);
 }
 
 }  // namespace

@@ -87,6 +87,11 @@ class Schedulers : public ::testing::Test {
     scheduler.add(std::move(tasks));
     move();
   }
+  /// So many are wanted, and the worker asks for as many.
+  void give(PeerId peer, std::int64_t first, std::uint32_t count = 1) {
+    credit(peer, count);
+    want(first, count);
+  }
   static Task task_of(std::int64_t candidate) { return task_of({{candidate}, Purpose::Race, 1}); }
   static Task task_of(const EvaluationKey& key) { return {{.machine = "m"}, key}; }
   /// The campaign tells the task.
@@ -116,6 +121,22 @@ class Schedulers : public ::testing::Test {
             .attempt = attempt,
             .measured = {.score = score, .state_digest = 5, .wall_us = 100},
             .signature = scheduler.signer().sign(task_of(candidate), attempt, name_of(peer))});
+  }
+  /// A worker gives a task back; the signature of its lease.
+  std::uint64_t give_back(PeerId peer, std::int64_t candidate) {
+    const std::uint64_t signature = all<SendTasks>().back().tasks.back().signature;
+    const std::vector<PackedKey> keys{key(candidate)};
+    scheduler.on_returned({peer, 1, ++sequence}, keys, now);
+    move();
+    return signature;
+  }
+  void lose(PeerId peer) {
+    scheduler.on_unreachable(peer, now);
+    move();
+  }
+  void audit_every(std::int64_t results) {
+    options.campaigns[0].audit_every = results;
+    scheduler = Scheduler(options);
   }
   /// Any result.
   void answer(PeerId peer, const Result& result) {
@@ -152,6 +173,13 @@ class Schedulers : public ::testing::Test {
       if (const auto* one = std::get_if<Kind>(&action)) found.push_back(*one);
     }
     return found;
+  }
+  /// The one action of its kind.
+  template <class Kind>
+  Kind only() const {
+    const std::vector<Kind> found = all<Kind>();
+    EXPECT_EQ(found.size(), 1U);
+    return found.at(0);
   }
 
   SchedulerOptions options;

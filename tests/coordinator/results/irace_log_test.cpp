@@ -1,31 +1,22 @@
 #include "coordinator/results/irace_log.h"
 
-#include <gmock/gmock.h>
-
-#include <fstream>
-#include <sstream>
-
 #include "coordinator/results/irace_log_rows.h"
 #include "coordinator/results/stored_irace_log.h"
 #include "storage/store.h"
 #include "storage/store_at_rest.h"
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
 using Texts = std::map<std::string, std::string>;
 
 /// The example log of R's irace 3.5, as the converter writes it.
 Texts example() {
   Texts texts;
-  for (const std::string& name : irace_log_files()) {
-    std::ostringstream text;
-    text << std::ifstream(std::string(SWARMSMITH_TEST_DATA) + "/irace/log-acotsp/" + name).rdbuf();
-    texts.emplace(name, text.str());
-  }
+  for (const std::string& name : irace_log_files())
+    texts.emplace(name, whole_file(SWARMSMITH_TEST_DATA "/irace/log-acotsp/" + name));
   return texts;
 }
 
@@ -55,21 +46,19 @@ Texts by_hand() {
 }
 
 TEST(IraceLog, BecomesTheRowsOfADesign) {
-  const auto log = read_irace_log(by_hand());
-  ASSERT_TRUE(log) << to_string(log.error().front());
-  const auto addition =
-      irace_log_addition(*log, {.campaign = "theirs", .flavour = {}, .designs = {{.id = {1}}}});
-  ASSERT_TRUE(addition);
-  EXPECT_EQ(addition->designs.front().row.id, DesignId{2});
-  EXPECT_EQ(addition->designs.front().row.seed, 42);
-  const auto candidates = rows_of<CandidateRow>(*addition);
+  const auto log = value_of(read_irace_log(by_hand()));
+  const auto addition = value_of(
+      irace_log_addition(log, {.campaign = "theirs", .flavour = {}, .designs = {{.id = {1}}}}));
+  EXPECT_EQ(addition.designs.front().row.id, DesignId{2});
+  EXPECT_EQ(addition.designs.front().row.seed, 42);
+  const auto candidates = rows_of<CandidateRow>(addition);
   ASSERT_EQ(candidates.size(), 3U);
   EXPECT_EQ(candidates[0].machine, "--x 0.5 --a");
   EXPECT_EQ(candidates[0].parameters, R"({"x":0.5,"kind":"a"})");
   EXPECT_EQ(candidates[2].parameters, R"({"kind":"b\""})");
   EXPECT_EQ(candidates[2].parent, candidate_id({2}, 2));
   EXPECT_EQ(candidates[2].iteration, 2);
-  const auto evaluations = rows_of<EvaluationRow>(*addition);
+  const auto evaluations = rows_of<EvaluationRow>(addition);
   ASSERT_EQ(evaluations.size(), 6U);
   EXPECT_EQ(evaluations[1].measured.score, -3);
   EXPECT_EQ(evaluations[1].measured.time, 1.5);
@@ -77,18 +66,17 @@ TEST(IraceLog, BecomesTheRowsOfADesign) {
   EXPECT_EQ(evaluations[4].status, EvaluationStatus::Rejected);
   EXPECT_EQ(evaluations[5].key.purpose, Purpose::Test);
   EXPECT_EQ(evaluations[5].measured.score, -6);
-  const auto iterations = rows_of<IterationRow>(*addition);
+  const auto iterations = rows_of<IterationRow>(addition);
   EXPECT_FALSE(iterations[0].soft_restart);
   EXPECT_TRUE(iterations[1].soft_restart);
   EXPECT_EQ(iterations[1].elites, 1);
 }
 
 TEST(IraceLog, WorksOutWhoWasAliveAndWhoLeft) {
-  const auto addition = irace_log_addition(*read_irace_log(by_hand()),
-                                           {.campaign = "theirs", .flavour = {}, .designs = {}});
-  ASSERT_TRUE(addition);
+  const auto addition = value_of(irace_log_addition(
+      *read_irace_log(by_hand()), {.campaign = "theirs", .flavour = {}, .designs = {}}));
   std::vector<std::string> steps;
-  for (const RaceStepRow& step : rows_of<RaceStepRow>(*addition)) {
+  for (const RaceStepRow& step : rows_of<RaceStepRow>(addition)) {
     steps.push_back(std::to_string(step.iteration) + "/" + std::to_string(step.pair) + ": " +
                     std::to_string(step.alive_before) + " to " + std::to_string(step.alive_after) +
                     ", best " + to_string(step.best) + ", used " + std::to_string(step.used));
@@ -96,7 +84,7 @@ TEST(IraceLog, WorksOutWhoWasAliveAndWhoLeft) {
   // The elite brings its score on pair 1, on which 3 is rejected.
   EXPECT_THAT(steps, ElementsAre("1/1: 2 to 1, best c2, used 2", "2/2: 2 to 2, best c3, used 4",
                                  "2/1: 2 to 1, best c2, used 5"));
-  const auto gone = rows_of<EliminationRow>(*addition);
+  const auto gone = rows_of<EliminationRow>(addition);
   ASSERT_EQ(gone.size(), 2U);
   EXPECT_EQ(gone[0].candidate, CandidateId{1});
   EXPECT_EQ(gone[0].rank_sum, 2);
@@ -104,11 +92,11 @@ TEST(IraceLog, WorksOutWhoWasAliveAndWhoLeft) {
   EXPECT_EQ(gone[1].candidate, CandidateId{3});
   EXPECT_EQ(gone[1].rank_sum, 1 + 2);
   EXPECT_EQ(gone[1].reason, "rejected");
-  const auto elites = rows_of<EliteRow>(*addition);
+  const auto elites = rows_of<EliteRow>(addition);
   EXPECT_EQ(elites[0].mean, -3);
   EXPECT_EQ(elites[1].mean, -4);
   EXPECT_EQ(elites[1].runs, 2);
-  EXPECT_EQ(rows_of<DesignStateRow>(*addition).front().best, CandidateId{2});
+  EXPECT_EQ(rows_of<DesignStateRow>(addition).front().best, CandidateId{2});
 }
 
 TEST(IraceLog, RunsThatEstimateATimeCountForTheFirstRace) {
@@ -116,14 +104,12 @@ TEST(IraceLog, RunsThatEstimateATimeCountForTheFirstRace) {
   texts["runs.csv"] =
       "iteration,pair,configuration,cost,time,bound\n"
       "0,1,1,4,,\n0,1,2,3,1.5,9\n1,2,2,5,,\n1,2,3,1,,\n2,1,3,Inf,,\n";
-  const auto log = read_irace_log(texts);
-  ASSERT_TRUE(log) << to_string(log.error().front());
+  const auto log = value_of(read_irace_log(texts));
   const auto addition =
-      irace_log_addition(*log, {.campaign = "theirs", .flavour = {}, .designs = {}});
-  ASSERT_TRUE(addition);
-  EXPECT_EQ(rows_of<EvaluationRow>(*addition).front().iteration, 1);
-  EXPECT_EQ(rows_of<CandidateRow>(*addition).front().iteration, 1);
-  EXPECT_EQ(rows_of<IterationRow>(*addition).front().budget, 4);
+      value_of(irace_log_addition(log, {.campaign = "theirs", .flavour = {}, .designs = {}}));
+  EXPECT_EQ(rows_of<EvaluationRow>(addition).front().iteration, 1);
+  EXPECT_EQ(rows_of<CandidateRow>(addition).front().iteration, 1);
+  EXPECT_EQ(rows_of<IterationRow>(addition).front().budget, 4);
   texts["runs.csv"] += "-1,1,1,4,,\n";
   EXPECT_THAT(to_string(read_irace_log(texts).error().front()),
               HasSubstr("iterations count from 0"));
@@ -142,9 +128,8 @@ TEST(IraceLog, HasMachinesWhereAFlavourIsNamed) {
   texts["parameters.csv"] = "name,type,switch\nn,i,--nstates \ns0,c,--s0 \n";
   texts["configurations.csv"] = "id,parent,n,s0\n1,,1,1\n2,,1,1\n3,2,1,1\n";
   const IraceImport known{.campaign = "theirs", .flavour = watermelon(), .designs = {}};
-  const auto addition = irace_log_addition(*read_irace_log(texts), known);
-  ASSERT_TRUE(addition) << to_string(addition.error().front());
-  EXPECT_EQ(rows_of<CandidateRow>(*addition).front().modules, R"({"stop":1})");
+  const auto addition = value_of(irace_log_addition(*read_irace_log(texts), known));
+  EXPECT_EQ(rows_of<CandidateRow>(addition).front().modules, R"({"stop":1})");
   const auto none = irace_log_addition(*read_irace_log(by_hand()), known);
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().size(), 3U);
@@ -157,36 +142,32 @@ TEST(IraceLog, NamesWhatDoesNotFitByTableAndLine) {
   texts["runs.csv"] += "1,9,1,4,,\n1,1,7,4,,\n1,1,1,four,,\n1,1,1,-1e305,,\n";
   const auto log = read_irace_log(texts);
   ASSERT_FALSE(log);
-  std::vector<std::string> complaints;
-  for (const Error& error : log.error())
-    complaints.push_back(to_string(error));
-  EXPECT_THAT(complaints, ElementsAre("runs.csv:7: there is no pair 9",
-                                      "runs.csv:8: there is no configuration 7",
-                                      "runs.csv:9: column cost wants a number, not `four`",
-                                      HasSubstr("runs.csv:10: the cost -1e305 is beyond 1e300"),
-                                      "elites.csv: the log has no such table"));
+  EXPECT_THAT(
+      lines_of(log.error()),
+      ElementsAre("runs.csv:7: there is no pair 9", "runs.csv:8: there is no configuration 7",
+                  "runs.csv:9: column cost wants a number, not `four`",
+                  HasSubstr("runs.csv:10: the cost -1e305 is beyond 1e300"),
+                  "elites.csv: the log has no such table"));
 }
 
 TEST(IraceLog, OfTheExampleHasItsNineHundredAndEightyOneRuns) {
-  const auto log = read_irace_log(example());
-  ASSERT_TRUE(log) << to_string(log.error().front());
-  EXPECT_EQ(log->version, "3.5.6863679");
-  EXPECT_EQ(log->seed, 1406598565);
-  EXPECT_EQ(log->configurations.size(), 157U);
-  EXPECT_EQ(log->runs.size(), 981U);
+  const auto log = value_of(read_irace_log(example()));
+  EXPECT_EQ(log.version, "3.5.6863679");
+  EXPECT_EQ(log.seed, 1406598565);
+  EXPECT_EQ(log.configurations.size(), 157U);
+  EXPECT_EQ(log.runs.size(), 981U);
   const auto addition =
-      irace_log_addition(*log, {.campaign = "acotsp", .flavour = {}, .designs = {}});
-  ASSERT_TRUE(addition);
-  const auto iterations = rows_of<IterationRow>(*addition);
+      value_of(irace_log_addition(log, {.campaign = "acotsp", .flavour = {}, .designs = {}}));
+  const auto iterations = rows_of<IterationRow>(addition);
   std::vector<std::int64_t> runs;
   for (const IterationRow& iteration : iterations)
     runs.push_back(iteration.budget);
   // table(experimentLog[, "iteration"]) in R.
   EXPECT_THAT(runs, ElementsAre(165, 160, 155, 195, 197, 73, 36));
-  const auto evaluations = rows_of<EvaluationRow>(*addition);
+  const auto evaluations = rows_of<EvaluationRow>(addition);
   EXPECT_EQ(evaluations.size(), 981U + 220U);
   EXPECT_EQ(evaluations.front().measured.score, -29098846);  // experiments[1, 1] in R
-  const DesignStateRow state = rows_of<DesignStateRow>(*addition).front();
+  const DesignStateRow state = rows_of<DesignStateRow>(addition).front();
   EXPECT_EQ(state.used, 981);
   EXPECT_EQ(state.best, CandidateId{155});  // the last of iterationElites in R
   EXPECT_EQ(state.reason, "Not enough budget to race more than the minimum configurations");
@@ -226,14 +207,12 @@ IraceLog through_a_store(const IraceLog& log) {
 
 TEST(IraceLog, IsPrintedAsTablesThatReadBackTheSame) {
   for (const Texts& texts : {by_hand(), with_settings(), example()}) {
-    const auto log = read_irace_log(texts);
-    ASSERT_TRUE(log) << to_string(log.error().front());
-    const Texts printed = print_irace_log(*log);
+    const auto log = value_of(read_irace_log(texts));
+    const Texts printed = print_irace_log(log);
     EXPECT_EQ(printed.size(), irace_log_files().size());
-    const auto again = read_irace_log(printed);
-    ASSERT_TRUE(again) << to_string(again.error().front());
-    EXPECT_EQ(print_irace_log(*again), printed);
-    EXPECT_EQ(again->runs.size(), log->runs.size());
+    const auto again = value_of(read_irace_log(printed));
+    EXPECT_EQ(print_irace_log(again), printed);
+    EXPECT_EQ(again.runs.size(), log.runs.size());
   }
   const Texts printed = print_irace_log(*read_irace_log(with_settings()));
   EXPECT_THAT(printed.at("domains.csv"), HasSubstr("kind,''=1\n"));
@@ -243,10 +222,9 @@ TEST(IraceLog, IsPrintedAsTablesThatReadBackTheSame) {
 
 TEST(IraceLog, ComesBackFromAStoreAsItWas) {
   for (const Texts& texts : {with_settings(), example()}) {
-    const auto log = read_irace_log(texts);
-    ASSERT_TRUE(log) << to_string(log.error().front());
-    Texts expected = print_irace_log(*log);
-    Texts found = print_irace_log(through_a_store(*log));
+    const auto log = value_of(read_irace_log(texts));
+    Texts expected = print_irace_log(log);
+    Texts found = print_irace_log(through_a_store(log));
     for (const std::string& file : irace_log_files())
       EXPECT_EQ(found.at(file), expected.at(file)) << file;
   }

@@ -1,18 +1,13 @@
 #include "coordinator/results/score_import.h"
 
-#include <gmock/gmock.h>
-
 #include <fstream>
 
 #include "storage/answer.h"
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// Two finished designs of one mission, and one that races; d1's candidate c5 won nothing.
 ScoreImport known_store() {
@@ -46,13 +41,9 @@ std::vector<EvaluationRow> evaluations(const ImportedScores& scores) {
 std::vector<std::string> complaints(const std::string& csv,
                                     const ScoreImport& known = known_store(),
                                     const ScoreLedger& ledger = {}) {
-  const auto scores = import(csv, known, ledger);
-  EXPECT_FALSE(scores);
-  std::vector<std::string> texts;
-  if (scores) return texts;
-  for (const Error& error : scores.error())
-    texts.push_back(to_string(error));
-  return texts;
+  const auto read = import(csv, known, ledger);
+  EXPECT_FALSE(read);
+  return complaints_of(read);
 }
 
 TEST(ScoreImport, SaysWhatADesignIsInsteadOfWhatTheRowSays) {
@@ -70,29 +61,27 @@ TEST(ScoreImport, SaysWhatADesignIsInsteadOfWhatTheRowSays) {
 }
 
 TEST(ScoreImport, FindsWhoByAnyNameThatIsUnique) {
-  const auto scores = import(
-      "candidate,design,fsm_id,mission,method,repetition,score\n"
-      "c2,,,,,,1\n"   // a winner
-      "5,d1,,,,,2\n"  // another candidate, without its letter
-      ",d2,,,,,3\n"   // a design's winner
-      ",,tA2,aggregation,,,4\n"
-      ",,,aggregation,thesis,2,5\n");
-  ASSERT_TRUE(scores) << to_string(scores.error().front());
+  const auto scores =
+      value_of(import("candidate,design,fsm_id,mission,method,repetition,score\n"
+                      "c2,,,,,,1\n"   // a winner
+                      "5,d1,,,,,2\n"  // another candidate, without its letter
+                      ",d2,,,,,3\n"   // a design's winner
+                      ",,tA2,aggregation,,,4\n"
+                      ",,,aggregation,thesis,2,5\n"));
   std::vector<std::string> who;
-  for (const EvaluationRow& row : evaluations(*scores)) {
+  for (const EvaluationRow& row : evaluations(scores)) {
     EXPECT_EQ(row.source, "real");
     EXPECT_EQ(row.measured.state_digest, 0U);
     who.push_back(to_string(row.key.candidate) + "=" + std::to_string(int(row.measured.score)));
   }
   EXPECT_THAT(who, ElementsAre("c2=1", "c5=2", "c1000002=3", "c1000002=4", "c1000002=5"));
-  EXPECT_EQ(scores->added, 5);
+  EXPECT_EQ(scores.added, 5);
 }
 
 TEST(ScoreImport, GivesRunsWithoutASeedTheNumbersOfTheirRows) {
-  const auto scores = import("design,score\n1,1\n1,1\n2,4\n");
-  ASSERT_TRUE(scores);
+  const auto scores = value_of(import("design,score\n1,1\n1,1\n2,4\n"));
   std::vector<std::int64_t> instances;
-  for (const Row& row : scores->addition.rows) {
+  for (const Row& row : scores.addition.rows) {
     const auto* pair = std::get_if<PairRow>(&row);
     if (pair == nullptr) continue;
     EXPECT_EQ(pair->seed, 0);
@@ -103,11 +92,10 @@ TEST(ScoreImport, GivesRunsWithoutASeedTheNumbersOfTheirRows) {
 }
 
 TEST(ScoreImport, NumbersAPairForEachSourceInstanceAndSeed) {
-  const auto scores =
-      import("candidate,source,seed,score\nc2,real,7,1\nc2,rvr,7,1\nc5,real,7,1\nc2,real,8,1\n");
-  ASSERT_TRUE(scores);
+  const auto scores = value_of(
+      import("candidate,source,seed,score\nc2,real,7,1\nc2,rvr,7,1\nc5,real,7,1\nc2,real,8,1\n"));
   std::vector<std::string> ids;
-  for (const EvaluationRow& row : evaluations(*scores))
+  for (const EvaluationRow& row : evaluations(scores))
     ids.push_back(to_string(row.key));
   // c5 meets c2 on the same pair.
   EXPECT_THAT(ids, ElementsAre("e200001s", "e200002s", "e500001s", "e200003s"));
@@ -117,10 +105,10 @@ TEST(ScoreImport, TurnsCostsIntoScores) {
   ScoreImport known = known_store();
   known.missions.renamed["agg"] = "aggregation";
   known.costs_of = {"aggregation"};
-  const auto scores = import("mission,repetition,score,cost\nagg,1,3,\nagg,2,,4\n", known);
-  ASSERT_TRUE(scores) << to_string(scores.error().front());
-  EXPECT_EQ(evaluations(*scores)[0].measured.score, -3);
-  EXPECT_EQ(evaluations(*scores)[1].measured.score, -4);
+  const auto scores =
+      value_of(import("mission,repetition,score,cost\nagg,1,3,\nagg,2,,4\n", known));
+  EXPECT_EQ(evaluations(scores)[0].measured.score, -3);
+  EXPECT_EQ(evaluations(scores)[1].measured.score, -4);
 }
 
 TEST(ScoreImport, NamesEveryBadRowByItsLine) {
@@ -160,26 +148,23 @@ TEST(ScoreImport, KnowsAScoreAgainAndRefusesAnother) {
   std::vector<Row> ignored;
   const EvaluationKey key = ledger.add(
       {.candidate = {2}, .source = "real", .instance = 1, .seed = 7}, {.score = 3}, ignored);
-  const auto same = import("design,seed,score\n1,7,3\n", known_store(), ledger);
-  ASSERT_TRUE(same);
-  EXPECT_EQ(same->known, 1);
-  EXPECT_THAT(same->addition.rows, IsEmpty());
+  const auto same = value_of(import("design,seed,score\n1,7,3\n", known_store(), ledger));
+  EXPECT_EQ(same.known, 1);
+  EXPECT_THAT(same.addition.rows, IsEmpty());
   EXPECT_THAT(complaints("design,seed,score\n1,7,4\n", known_store(), ledger),
               ElementsAre("r.csv:2: the score 4 of c2 (real, seed 7) is 3 in the store, e200001s; "
                           "--replace takes the new one"));
   ScoreImport replacing = known_store();
   replacing.replace = true;
-  const auto other = import("design,seed,score\n1,7,4\n", replacing, ledger);
-  ASSERT_TRUE(other);
-  EXPECT_EQ(other->replaced, 1);
-  EXPECT_THAT(other->addition.removed, ElementsAre(key));
-  EXPECT_EQ(evaluations(*other).front().key, key);
+  const auto other = value_of(import("design,seed,score\n1,7,4\n", replacing, ledger));
+  EXPECT_EQ(other.replaced, 1);
+  EXPECT_THAT(other.addition.removed, ElementsAre(key));
+  EXPECT_EQ(evaluations(other).front().key, key);
 }
 
 TEST(ScoreImport, TakesTwoRowsOfOnePlaceOnlyWhenTheyAgree) {
-  const auto scores = import("design,seed,score\n1,7,3\n1,7,3\n");
-  ASSERT_TRUE(scores);
-  EXPECT_EQ(scores->added, 1);
+  const auto scores = value_of(import("design,seed,score\n1,7,3\n1,7,3\n"));
+  EXPECT_EQ(scores.added, 1);
   ScoreImport replacing = known_store();
   replacing.replace = true;
   EXPECT_THAT(complaints("design,seed,score\n1,7,3\n1,7,4\n", replacing),
@@ -187,26 +172,24 @@ TEST(ScoreImport, TakesTwoRowsOfOnePlaceOnlyWhenTheyAgree) {
 }
 
 TEST(ScoreImport, KeepsNotesAndSaysWhatItDoesNotRead) {
-  const auto scores = import("design,score,note,weather\n1,3,\"robot \"\"2\"\" fell\",fine\n");
-  ASSERT_TRUE(scores);
-  EXPECT_THAT(scores->not_read, ElementsAre("weather"));
-  const auto& note = std::get<EventRow>(scores->addition.rows.back());
+  const auto scores =
+      value_of(import("design,score,note,weather\n1,3,\"robot \"\"2\"\" fell\",fine\n"));
+  EXPECT_THAT(scores.not_read, ElementsAre("weather"));
+  const auto& note = std::get<EventRow>(scores.addition.rows.back());
   EXPECT_EQ(note.text, R"({"evaluation":"e200001s","note":"robot \"2\" fell"})");
 }
 
 TEST(ScoreImport, ANoteThatIsNotUtf8IsStoredAsJson) {
-  const auto scores = import("design,score,note\n1,3,caf\xe9\n");
-  ASSERT_TRUE(scores);
-  EXPECT_EQ(std::get<EventRow>(scores->addition.rows.back()).text,
+  const auto scores = value_of(import("design,score,note\n1,3,caf\xe9\n"));
+  EXPECT_EQ(std::get<EventRow>(scores.addition.rows.back()).text,
             "{\"evaluation\":\"e200001s\",\"note\":\"caf\xef\xbf\xbd\"}");
 }
 
 TEST(MissionWords, NameOneForAllAndRenameOthers) {
-  const auto words = read_mission_words({"grid=grid_exploration", "aggregation"});
-  ASSERT_TRUE(words);
-  EXPECT_EQ(words->name_of("grid"), "grid_exploration");
-  EXPECT_EQ(words->name_of("color"), "color");
-  EXPECT_EQ(words->name_of(""), "aggregation");
+  const auto words = value_of(read_mission_words({"grid=grid_exploration", "aggregation"}));
+  EXPECT_EQ(words.name_of("grid"), "grid_exploration");
+  EXPECT_EQ(words.name_of("color"), "color");
+  EXPECT_EQ(words.name_of(""), "aggregation");
   for (const auto& wrong :
        std::vector<std::vector<std::string>>{{"a", "b"}, {"a=b", "a=c"}, {"=b"}, {"a="}})
     EXPECT_FALSE(read_mission_words(wrong)) << wrong.front();
@@ -216,19 +199,16 @@ TEST(MissionWords, NameFilesOfMissions) {
   const TemporaryFolder folder;
   const std::string file = (folder / "cave.toml").string();
   std::ofstream(file) << "format = 1\nname = \"cave\"\npreset = \"aggregation\"\nrobots = 5\n";
-  const auto one = read_mission_words({"hole=" + file});
-  ASSERT_TRUE(one);
-  EXPECT_EQ(one->name_of("hole"), "cave");
-  EXPECT_EQ(one->name_of("shelter"), "shelter");
-  ASSERT_EQ(one->of_files.size(), 1U);
-  EXPECT_EQ(one->of_files[0].mission.robots, 5);
-  const auto all = read_mission_words({file});
-  ASSERT_TRUE(all);
-  EXPECT_EQ(all->name_of(""), "cave");
-  EXPECT_EQ(all->name_of("hole"), "cave");
-  const auto missing = read_mission_words({(folder / "none.toml").string()});
-  ASSERT_FALSE(missing);
-  EXPECT_THAT(to_string(missing.error().front()), HasSubstr("none.toml"));
+  const auto one = value_of(read_mission_words({"hole=" + file}));
+  EXPECT_EQ(one.name_of("hole"), "cave");
+  EXPECT_EQ(one.name_of("shelter"), "shelter");
+  ASSERT_EQ(one.of_files.size(), 1U);
+  EXPECT_EQ(one.of_files[0].mission.robots, 5);
+  const auto all = value_of(read_mission_words({file}));
+  EXPECT_EQ(all.name_of(""), "cave");
+  EXPECT_EQ(all.name_of("hole"), "cave");
+  EXPECT_THAT(complaint_of(read_mission_words({(folder / "none.toml").string()})),
+              HasSubstr("none.toml"));
 }
 
 }  // namespace

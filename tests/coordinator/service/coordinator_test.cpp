@@ -67,6 +67,16 @@ class Coordinators : public ::testing::Test {
     }
     say(message);
   }
+  void commit() {
+    coordinator.on_committed(0, ticket);
+    move();
+  }
+  void finish() {
+    for (int i = 0; i < 1000 && !coordinator.finished(); ++i) {
+      answer();
+      commit();
+    }
+  }
   int acknowledged() const {
     int count = 0;
     for (const pb::ToWorker& message : heard)
@@ -96,19 +106,14 @@ TEST_F(Coordinators, AcknowledgeAfterTheCommitAndNotBefore) {
   answer();
   EXPECT_EQ(acknowledged(), 0);
   EXPECT_FALSE(coordinator.settled());
-  coordinator.on_committed(0, ticket);
-  move();
+  commit();
   EXPECT_GT(acknowledged(), 0);
   EXPECT_TRUE(coordinator.settled());
 }
 
 TEST_F(Coordinators, FinishTheCampaign) {
   hello();
-  for (int i = 0; i < 1000 && !coordinator.finished(); ++i) {
-    answer();
-    coordinator.on_committed(0, ticket);
-    move();
-  }
+  finish();
   EXPECT_TRUE(coordinator.finished());
   EXPECT_EQ(campaign.dump(), cluster::undisturbed_dump(shape));
 }
@@ -117,8 +122,7 @@ TEST_F(Coordinators, AcknowledgeAgainWhatIsOnDisk) {
   hello();
   const std::vector<pb::ToWorker> tasks = heard;
   answer();
-  coordinator.on_committed(0, ticket);
-  move();
+  commit();
   heard = tasks;
   answer();
   EXPECT_GT(acknowledged(), 0);
@@ -195,8 +199,7 @@ TEST_F(Coordinators, ConfirmACommandWhenItIsOnDiskAndNotBefore) {
   EXPECT_EQ(count(pb::ToWorker::kCommandReply), 0);
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(std::get<CommandRow>(rows[0]).who, "somebody@here");
-  coordinator.on_committed(0, ticket);
-  move();
+  commit();
   ASSERT_EQ(count(pb::ToWorker::kCommandReply), 1);
   EXPECT_TRUE(heard.back().command_reply().done());
   // There is nothing to write now.
@@ -213,17 +216,12 @@ TEST_F(Coordinators, LeaseNothingOfWhatIsPausedUntilItIsResumed) {
   // A person hears that nothing will happen by itself.
   EXPECT_TRUE(std::holds_alternative<EventRow>(rows.back()));
   answer();
-  coordinator.on_committed(0, ticket);
-  move();
+  commit();
   EXPECT_EQ(count(pb::ToWorker::kTasks), 0);
   EXPECT_FALSE(coordinator.finished());
   say(command(pb::Command::KIND_RESUME, 0), 5);
   EXPECT_GT(count(pb::ToWorker::kTasks), 0);
-  for (int i = 0; i < 1000 && !coordinator.finished(); ++i) {
-    answer();
-    coordinator.on_committed(0, ticket);
-    move();
-  }
+  finish();
   EXPECT_EQ(campaign.dump(), cluster::undisturbed_dump(shape));
 }
 

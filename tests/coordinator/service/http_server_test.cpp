@@ -1,19 +1,15 @@
 #include "coordinator/service/http_server.h"
 
-#include <gmock/gmock.h>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "tests/support/checks.h"
 #include "tests/support/http_peer.h"
 #include "tests/support/peak_memory.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::StartsWith;
 
 HttpOptions on_loopback(int port = 0, bool next_port = false) {
   HttpOptions options;
@@ -47,10 +43,9 @@ TEST(HttpServerTest, TwoServersNeverShareAPort) {
 
 TEST(HttpServerTest, TheNextPortThatIsFreeWillDo) {
   const auto first = HttpServer::start(on_loopback()).value();
-  const auto second = HttpServer::start(on_loopback(port_of(*first), true));
-  ASSERT_TRUE(second.has_value()) << to_string(second.error());
-  EXPECT_NE(port_of(*first), port_of(**second));
-  EXPECT_THAT(get(port_of(**second), "/healthz"), EndsWith("ok\n"));
+  const auto second = value_of(HttpServer::start(on_loopback(port_of(*first), true)));
+  EXPECT_NE(port_of(*first), port_of(*second));
+  EXPECT_THAT(get(port_of(*second), "/healthz"), EndsWith("ok\n"));
 }
 
 TEST(HttpServerTest, AnAddressOfAnotherHostIsSaidToBeThat) {

@@ -1,9 +1,9 @@
 #include "coordinator/service/metrics_text.h"
 #include "tests/support/not_empty.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -109,10 +109,7 @@ TEST(MetricsText, SaysTheSameBeforeAnythingIsKnown) {
 }
 
 TEST(MetricsText, HasTheMetricsOfThePageAndNoOthers) {
-  std::ifstream in(SWARMSMITH_SOURCE_DIR "/docs/observability.md");
-  std::stringstream page;
-  page << in.rdbuf();
-  const std::string text = page.str();
+  const std::string text = whole_file(SWARMSMITH_SOURCE_DIR "/docs/observability.md");
   static const std::regex kRow(R"(\n\| `(swarmsmith_[a-z_]+)` \|)");
   std::set<std::string> documented;
   for (std::sregex_iterator at(text.begin(), text.end(), kRow), end; at != end; ++at)

@@ -1,12 +1,9 @@
 #include "coordinator/service/paused_designs.h"
 
-#include <gmock/gmock.h>
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 CommandRow command(CommandKind kind, std::int64_t design) {
   return {.kind = kind, .design = {design}, .step = std::nullopt};
@@ -28,14 +25,12 @@ TEST(PausedDesigns, AreThoseOfTheLastCommands) {
 
 TEST(PausedDesigns, APauseHasARowForEachDesignThatItChanges) {
   const std::vector<DesignId> unfinished = {{1}, {2}, {3}};
-  const auto all = rows_of_pause(command(CommandKind::Pause, 0), unfinished, {{2}});
-  ASSERT_TRUE(all);
-  EXPECT_THAT(designs_of(*all), ElementsAre(DesignId{1}, DesignId{3}));
-  EXPECT_EQ(sentence_of_pause(CommandKind::Pause, *all), "paused: d1, d3");
-  const auto again = rows_of_pause(command(CommandKind::Resume, 3), unfinished, {{2}});
-  ASSERT_TRUE(again);
-  EXPECT_THAT(*again, IsEmpty());
-  EXPECT_EQ(sentence_of_pause(CommandKind::Resume, *again),
+  const auto all = value_of(rows_of_pause(command(CommandKind::Pause, 0), unfinished, {{2}}));
+  EXPECT_THAT(designs_of(all), ElementsAre(DesignId{1}, DesignId{3}));
+  EXPECT_EQ(sentence_of_pause(CommandKind::Pause, all), "paused: d1, d3");
+  const auto again = value_of(rows_of_pause(command(CommandKind::Resume, 3), unfinished, {{2}}));
+  EXPECT_THAT(again, IsEmpty());
+  EXPECT_EQ(sentence_of_pause(CommandKind::Resume, again),
             "nothing to do: every design is over, or resumed before");
   EXPECT_FALSE(rows_of_pause(command(CommandKind::Pause, 4), unfinished, {})) << "it is over";
 }

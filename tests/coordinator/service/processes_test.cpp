@@ -1,6 +1,5 @@
 // Real worker processes with the real simulator.
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <atomic>
 #include <csignal>
@@ -9,11 +8,9 @@
 #include <semaphore>
 #include <thread>
 
-#include "coordinator/launchers/local_workers.h"
 #include "coordinator/pool/task_key.h"
 #include "coordinator/service/messages.h"
 #include "coordinator/service/referee.h"
-#include "coordinator/service/service.h"
 #include "proto/scenario/scenario.h"
 #include "proto/task_messages.h"
 #include "proto/wire.h"
@@ -23,9 +20,8 @@
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
-#include "tests/support/eventually.h"
+#include "tests/coordinator/service/running_service.h"
 #include "tests/support/flat_campaign.h"
-#include "tests/support/memory_store.h"
 #include "tests/support/not_empty.h"
 #include "tests/support/temporary_folder.h"
 
@@ -52,7 +48,7 @@ WorkerScenario scenario_of(int cycles) {
   return scenario;
 }
 
-class Processes : public ::testing::Test {
+class Processes : public RunningService {
  protected:
   void open(std::int64_t evaluations, int cycles) {
     const WorkerScenario scenario = scenario_of(cycles);
@@ -62,47 +58,16 @@ class Processes : public ::testing::Test {
     options.coordinator.scheduler = scheduler;
     options.coordinator.scheduler.engine_version = kEngineVersion;
     options.coordinator.scheduler.self_test = self_test_digest();
-    auto opened = Service::open(options, {{"d", &store, campaign.get()}});
-    ASSERT_TRUE(opened);
-    service = std::move(*opened);
-  }
-
-  std::jthread run() {
-    return std::jthread([this](const std::stop_token& stop) {
-      ServiceHooks hooks;
-      hooks.on_status = [this](const LiveStatus& status) {
-        leased = status.leased;
-        requeued = status.requeued;
-        workers = status.workers;
-      };
-      end = service->run(stop, hooks);
-      ended = true;
-    });
-  }
-
-  LocalWorkersOptions local(int processes) const {
-    return {.endpoint = service->endpoint(),
-            .processes = processes,
-            .slots = 1,
-            .program = std::string(SWARMSMITH_BIN_DIR) + "/swarmsmith-worker",
-            .arguments = {}};
+    serve_campaign(options, *campaign);
   }
 
   SchedulerOptions scheduler;
-  MemoryStore store;
   std::unique_ptr<FlatCampaign> campaign;
-  std::unique_ptr<Service> service;
-  std::atomic<std::int64_t> leased{0}, requeued{0}, workers{0};
-  std::atomic<bool> ended{false};
-  ServiceEnd end;
 };
 
 TEST_F(Processes, EvaluateACampaign) {
   open(200, 1200);
-  const std::jthread loop = run();
-  auto started = LocalWorkers::start(local(2));
-  ASSERT_TRUE(started);
-  EXPECT_TRUE(eventually([&] { return ended.load(); }));
+  run_to_the_end(local(2));
   EXPECT_EQ(store.rows_of<EvaluationRow>().size(), 200U);
 }
 
@@ -111,19 +76,17 @@ TEST_F(Processes, RequeueWhatAKilledWorkerHadWithoutWaitingForItsSilence) {
   open(4, 800'000);
   std::jthread loop = run();
   {
-    auto started = LocalWorkers::start(local(1));
-    ASSERT_TRUE(started);
+    auto started = value_of(LocalWorkers::start(local(1)));
     ASSERT_TRUE(eventually([&] { return leased.load() > 0; }));
-    kill(started->pids().at(0), SIGKILL);
+    kill(started.pids().at(0), SIGKILL);
     ASSERT_TRUE(eventually([&] { return requeued.load() > 0; }));
     // Another one is started in its place.
     ASSERT_TRUE(eventually([&] {
-      started->tend(SystemClock().now());
+      started.tend(SystemClock().now());
       return workers.load() == 1 && leased.load() > 0;
     }));
   }
-  loop.request_stop();
-  EXPECT_TRUE(eventually([&] { return ended.load(); }));
+  stop(loop);
 }
 
 TEST_F(Processes, DrainWithExitCodeZeroOnSigterm) {
@@ -143,8 +106,7 @@ TEST_F(Processes, DrainWithExitCodeZeroOnSigterm) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
   EXPECT_TRUE(eventually([&] { return workers.load() == 0 && leased.load() == 0; }));
-  loop.request_stop();
-  EXPECT_TRUE(eventually([&] { return ended.load(); }));
+  stop(loop);
   EXPECT_EQ(end.how, ServiceEnd::How::Interrupted);
 }
 

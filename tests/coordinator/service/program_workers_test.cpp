@@ -1,6 +1,5 @@
 // Real worker processes that run real programs in place of the simulator.
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <atomic>
 #include <csignal>
@@ -10,15 +9,12 @@
 #include <set>
 #include <thread>
 
-#include "coordinator/launchers/local_workers.h"
 #include "coordinator/launchers/worker_program.h"
-#include "coordinator/service/service.h"
 #include "proto/scenario/scenario.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
-#include "tests/support/eventually.h"
+#include "tests/coordinator/service/running_service.h"
 #include "tests/support/flat_campaign.h"
-#include "tests/support/memory_store.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -34,11 +30,10 @@ std::vector<Task> tasks_of(std::int64_t count) {
   return tasks;
 }
 
-class ProgramWorkers : public ::testing::Test {
+class ProgramWorkers : public RunningService {
  protected:
   void script(const std::string& text) {
-    std::ofstream(folder / "target-runner") << "#!/bin/sh\n" << text;
-    std::filesystem::permissions(folder / "target-runner", std::filesystem::perms::owner_all);
+    write_script(folder / "target-runner", text);
     scenario.campaign_digest = "d";
     scenario.engine_version = kEngineVersion;
     scenario.target = Target{};
@@ -54,25 +49,9 @@ class ProgramWorkers : public ::testing::Test {
     options.coordinator.scheduler.self_test = self_test_digest();
     options.coordinator.scheduler.evaluates_programs = true;
     options.coordinator.scheduler.campaigns[0].stop_on_failure = stop_on_failure;
-    auto opened = Service::open(options, {{"d", &store, campaign.get()}});
-    ASSERT_TRUE(opened);
-    service = std::move(*opened);
+    serve_campaign(options, *campaign);
   }
-  std::jthread run() {
-    return std::jthread([this](const std::stop_token& stop) {
-      ServiceHooks hooks;
-      hooks.on_status = [this](const LiveStatus& status) { leased = status.leased; };
-      end = service->run(stop, hooks);
-      ended = true;
-    });
-  }
-  LocalWorkersOptions local() const {
-    return {.endpoint = service->endpoint(),
-            .processes = 1,
-            .slots = 4,
-            .program = std::string(SWARMSMITH_BIN_DIR) + "/swarmsmith-worker",
-            .arguments = allow_arguments(*scenario.target)};
-  }
+  LocalWorkersOptions allowed() const { return local(1, 4, allow_arguments(*scenario.target)); }
   std::vector<std::string> log() const {
     std::ifstream in(folder / "log");
     std::vector<std::string> lines;
@@ -83,22 +62,14 @@ class ProgramWorkers : public ::testing::Test {
 
   TemporaryFolder folder;
   WorkerScenario scenario;
-  MemoryStore store;
   bool stop_on_failure = false;
   std::unique_ptr<FlatCampaign> campaign;
-  std::unique_ptr<Service> service;
-  std::atomic<std::int64_t> leased{0};
-  std::atomic<bool> ended{false};
-  ServiceEnd end;
 };
 
 TEST_F(ProgramWorkers, CallTheTargetOnceForEachEvaluation) {
   script("echo $6 >> log; echo $6 0.5\n");
   open(100);
-  const std::jthread loop = run();
-  auto started = LocalWorkers::start(local());
-  ASSERT_TRUE(started);
-  ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  run_to_the_end(allowed());
   const auto rows = store.rows_of<EvaluationRow>();
   ASSERT_EQ(rows.size(), 100U);
   for (const EvaluationRow& row : rows) {
@@ -114,13 +85,10 @@ TEST_F(ProgramWorkers, KeepAFailureAndStop) {
   script("[ $6 = 3 ] && { echo broken >&2; echo apples; exit 1; }; echo $6\n");
   stop_on_failure = true;
   open(10);
-  const std::jthread loop = run();
-  auto started = LocalWorkers::start(local());
-  ASSERT_TRUE(started);
-  ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  run_to_the_end(allowed());
   EXPECT_EQ(end.how, ServiceEnd::How::Stopped);
-  EXPECT_NE(end.reasons.at(0).find("exit status 1"), std::string::npos) << end.reasons.at(0);
-  EXPECT_NE(end.reasons.at(0).find("3 1 3 here  -n 3"), std::string::npos) << end.reasons.at(0);
+  EXPECT_THAT(end.reasons.at(0), HasSubstr("exit status 1"));
+  EXPECT_THAT(end.reasons.at(0), HasSubstr("3 1 3 here  -n 3"));
   const auto failures = store.rows_of<FailureRow>();
   ASSERT_EQ(failures.size(), 1U);
   EXPECT_EQ(failures[0].key.candidate.value, 3);
@@ -131,10 +99,7 @@ TEST_F(ProgramWorkers, KeepAFailureAndStop) {
 TEST_F(ProgramWorkers, RejectWhatFails) {
   script("[ $6 = 3 ] && exit 1; [ $6 = 4 ] && echo Inf || echo $6\n");
   open(10);
-  const std::jthread loop = run();
-  auto started = LocalWorkers::start(local());
-  ASSERT_TRUE(started);
-  ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  run_to_the_end(allowed());
   std::set<std::int64_t> rejected;
   for (const EvaluationRow& row : store.rows_of<EvaluationRow>()) {
     if (row.status == EvaluationStatus::Rejected) rejected.insert(row.key.candidate.value);
@@ -146,10 +111,9 @@ TEST_F(ProgramWorkers, RejectWhatFails) {
 /// The script of docs/targets.md, with a simulator behind it that talks on both outputs and has
 /// threads of its own kind.
 TEST_F(ProgramWorkers, RunAScriptWithASimulatorBehindIt) {
-  std::ofstream(folder / "automode_main")
-      << "#!/bin/sh\necho '[INFO] loaded'; echo '[WARNING] no light' >&2; (sleep 0.01) &\n"
-         "printf '[%s]' \"$@\" >> calls; echo >> calls; wait; echo \"Score $8.5\"\n";
-  std::filesystem::permissions(folder / "automode_main", std::filesystem::perms::owner_all);
+  write_script(folder / "automode_main",
+               "echo '[INFO] loaded'; echo '[WARNING] no light' >&2; (sleep 0.01) &\n"
+               "printf '[%s]' \"$@\" >> calls; echo >> calls; wait; echo \"Score $8.5\"\n");
   script(
       "SEED=$3; INSTANCE=$4; shift 4\n"
       "OUT=$(./automode_main -n -c \"$INSTANCE\" --seed \"$SEED\" --fsm-config \"$@\" 2> "
@@ -157,19 +121,13 @@ TEST_F(ProgramWorkers, RunAScriptWithASimulatorBehindIt) {
       "echo \"$OUT\" | grep -a '^Score' | tail -1 | awk '{print -$2}'\n");
   scenario.instances = {{{"mission.argos"}, {}}};
   open(8);
-  const std::jthread loop = run();
-  auto started = LocalWorkers::start(local());
-  ASSERT_TRUE(started);
-  ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  run_to_the_end(allowed());
   ASSERT_EQ(store.rows_of<EvaluationRow>().size(), 8U);
   for (const EvaluationRow& row : store.rows_of<EvaluationRow>()) {
     EXPECT_EQ(row.measured.score, static_cast<double>(row.key.candidate.value) + 0.5);
   }
-  std::ifstream in(folder / "calls");
-  const std::string calls(std::istreambuf_iterator<char>(in), {});
-  EXPECT_NE(calls.find("[-n][-c][mission.argos][--seed][3][--fsm-config][-n][3]"),
-            std::string::npos)
-      << calls;
+  EXPECT_THAT(whole_file(folder / "calls"),
+              HasSubstr("[-n][-c][mission.argos][--seed][3][--fsm-config][-n][3]"));
 }
 
 /// The program, and what it started, in all slots.
@@ -178,10 +136,9 @@ TEST_F(ProgramWorkers, TakeTheirProgramsWithThemWhenKilled) {
   open(4);
   std::jthread loop = run();
   {
-    auto started = LocalWorkers::start(local());
-    ASSERT_TRUE(started);
+    auto started = value_of(LocalWorkers::start(allowed()));
     ASSERT_TRUE(eventually([&] { return log().size() == 4; }));
-    kill(started->pids().at(0), SIGKILL);
+    kill(started.pids().at(0), SIGKILL);
     for (const std::string& pid : log()) {
       EXPECT_TRUE(eventually([&] {
         std::ifstream stat("/proc/" + pid + "/stat");
@@ -190,8 +147,7 @@ TEST_F(ProgramWorkers, TakeTheirProgramsWithThemWhenKilled) {
       })) << pid;
     }
   }
-  loop.request_stop();
-  EXPECT_TRUE(eventually([&] { return ended.load(); }));
+  stop(loop);
   EXPECT_TRUE(store.rows_of<FailureRow>().empty());
 }
 
@@ -219,8 +175,7 @@ TEST_F(ProgramWorkers, RefuseWhatIsNotAllowed) {
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_EQ(WEXITSTATUS(status), 7);
   EXPECT_NE(said.find("--allow " + (folder / "target-runner").string()), std::string::npos) << said;
-  loop.request_stop();
-  EXPECT_TRUE(eventually([&] { return ended.load(); }));
+  stop(loop);
 }
 
 }  // namespace

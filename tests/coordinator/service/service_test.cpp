@@ -1,6 +1,5 @@
 #include "coordinator/service/service.h"
 
-#include <gmock/gmock.h>
 #include <atomic>
 #include <mutex>
 #include <thread>
@@ -9,9 +8,8 @@
 #include "proto/task_messages.h"
 #include "proto/wire.h"
 #include "proto/wire.pb.h"
+#include "tests/coordinator/service/running_service.h"
 #include "tests/coordinator/synthetic_campaign.h"
-#include "tests/support/eventually.h"
-#include "tests/support/memory_store.h"
 #include "worker/service.h"
 #include "worker/slots.h"
 
@@ -55,8 +53,7 @@ class HonestReferee final : public Referee {
   std::vector<Ruling> rulings_;
 };
 
-/// A real service on loopback; tests add workers and trouble.
-class Services : public ::testing::Test {
+class Services : public RunningService {
  protected:
   void open(CampaignShape of = {}) { open_with({}, of); }
 
@@ -67,26 +64,7 @@ class Services : public ::testing::Test {
     options.make_referee = [of](const std::string&, std::function<void()> on_ruling) {
       return std::make_unique<HonestReferee>(of, std::move(on_ruling));
     };
-    auto opened = Service::open(options, {{"d", &store, campaign.get()}});
-    ASSERT_TRUE(opened);
-    service = std::move(*opened);
-  }
-
-  /// Runs it in a thread of its own until it ends.
-  std::jthread run() {
-    return std::jthread([this](const std::stop_token& stop) {
-      ServiceHooks hooks;
-      hooks.on_status = [this](const LiveStatus& status) {
-        workers = status.workers;
-        malformed = status.malformed;
-        done = status.done;
-        in_trouble = !status.trouble.empty();
-        const auto refusals = status.refused.find("revoked key");
-        revoked = refusals != status.refused.end() ? refusals->second : 0;
-      };
-      end = service->run(stop, hooks);
-      ended = true;
-    });
+    serve_campaign(options, *campaign);
   }
 
   std::jthread worker(std::string build = "1", int engine = 0) {
@@ -102,16 +80,10 @@ class Services : public ::testing::Test {
   }
 
   CampaignShape shape;
-  MemoryStore store;
   std::unique_ptr<SyntheticCampaign> campaign;
-  std::unique_ptr<Service> service;
   const std::atomic<bool> never{false};
-  std::atomic<std::int64_t> workers{0}, malformed{0}, done{0};
-  std::atomic<std::uint64_t> revoked{0};
-  std::atomic<bool> ended{false}, in_trouble{false};
   std::optional<ClientKeys> worker_keys;
   std::atomic<bool> paused{false};
-  ServiceEnd end;
   WorkerEnd last_end;
 };
 
@@ -120,7 +92,7 @@ TEST_F(Services, RunACampaignToItsEndAndSendWorkersHome) {
   {
     const std::jthread loop = run();
     const std::jthread one = worker();
-    ASSERT_TRUE(eventually([&] { return ended.load(); }));
+    ASSERT_TRUE(comes_to_an_end());
   }
   EXPECT_EQ(end.how, ServiceEnd::How::Finished);
   EXPECT_EQ(campaign->dump(), cluster::undisturbed_dump(shape));
@@ -155,7 +127,7 @@ TEST_F(Services, KeepHonestWorkersUnaffectedByBadPeers) {
       }
       bad.back()->send(std::string(kMaxFrameBytes + 1, 'x'));
     }
-    ASSERT_TRUE(eventually([&] { return ended.load(); }));
+    ASSERT_TRUE(comes_to_an_end());
   }
   EXPECT_EQ(end.how, ServiceEnd::How::Finished);
   EXPECT_EQ(campaign->dump(), cluster::undisturbed_dump(shape));
@@ -167,9 +139,8 @@ TEST_F(Services, RefuseAWorkerOfAnotherBuild) {
   std::jthread loop = run();
   { const std::jthread one = worker("other", 99); }
   EXPECT_EQ(last_end.code, WorkerExit::Refused);
-  EXPECT_NE(last_end.reason.find("version 99"), std::string::npos);
-  loop.request_stop();
-  ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  EXPECT_THAT(last_end.reason, HasSubstr("version 99"));
+  stop(loop);
   EXPECT_EQ(end.how, ServiceEnd::How::Interrupted);
 }
 
@@ -182,7 +153,7 @@ TEST_F(Services, StopLeasingWhileTheDiskIsFull) {
   EXPECT_FALSE(ended.load());
   EXPECT_EQ(done.load(), 0);
   store.set_trouble("");
-  ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  ASSERT_TRUE(comes_to_an_end());
   EXPECT_EQ(end.how, ServiceEnd::How::Finished);
 }
 
@@ -190,9 +161,7 @@ TEST_F(Services, ListenOnLoopbackOnly) {
   SyntheticCampaign source({});
   ServiceOptions options;
   options.bind = "tcp://0.0.0.0:*";
-  const auto opened = Service::open(options, {{"d", &store, &source}});
-  ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().kind, ErrorKind::BadInput);
+  EXPECT_EQ(why_not(Service::open(options, {{"d", &store, &source}})).kind, ErrorKind::BadInput);
 }
 
 /// A service that only listed keys reach.
@@ -247,7 +216,7 @@ TEST_F(SecureServices, LetAKeyDoWhatItsRoleAllowsAndNothingElse) {
       for (int i = 0; i < 2; ++i) {
         ASSERT_TRUE(eventually([&] { return peer->receive(frame); }));
         EXPECT_THAT((*decode_to_worker(frame, arena))->reject().sentence(),
-                    testing::HasSubstr(peer == reader.get() ? "\"desk\"" : "\"node\""));
+                    HasSubstr(peer == reader.get() ? "\"desk\"" : "\"node\""));
       }
     }
     reader->send(encode(question));
@@ -255,7 +224,7 @@ TEST_F(SecureServices, LetAKeyDoWhatItsRoleAllowsAndNothingElse) {
     EXPECT_TRUE((*decode_to_worker(frame, arena))->has_status_reply());
     worker_keys = keys_of(node);
     const std::jthread one = worker();
-    ASSERT_TRUE(eventually([&] { return ended.load(); }));
+    ASSERT_TRUE(comes_to_an_end());
   }
   EXPECT_EQ(end.how, ServiceEnd::How::Finished);
   EXPECT_EQ(campaign->dump(), cluster::undisturbed_dump(shape));
@@ -286,13 +255,13 @@ TEST_F(SecureServices, CutAWorkerOffWhoseKeyIsRevokedAndBlameNobody) {
     publish(clients);
     paused = false;
     paused.notify_all();
-    ASSERT_TRUE(eventually([&] { return ended.load(); }));
+    ASSERT_TRUE(comes_to_an_end());
   }
   EXPECT_EQ(end.how, ServiceEnd::How::Finished);
   EXPECT_EQ(campaign->dump(), cluster::undisturbed_dump(shape));
   EXPECT_EQ(campaign->complaint(), "");
   for (const EventRow& event : store.rows_of<EventRow>())
-    EXPECT_EQ(event.text.find("connection closed"), std::string::npos) << event.text;
+    EXPECT_THAT(event.text, Not(HasSubstr("connection closed")));
 }
 
 }  // namespace

@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <map>
 
 #include <sstream>
@@ -11,12 +8,12 @@
 #include "irace_core/files/parameter_file.h"
 #include "tests/irace_core/files/golden_files.h"
 #include "tests/irace_core/golden.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using namespace swarmsmith::testing;
-using ::testing::HasSubstr;
 
 ParameterSpace golden_space() {
   return parse_parameter_file({.parameters = golden_text("configurations/parameters.txt")})->space;
@@ -31,19 +28,18 @@ TEST(ConfigurationsFileGolden, ReadsWhatRReads) {
     SCOPED_TRACE(name);
     ++read_files;
     const auto found =
-        parse_configurations_file(golden_text("configurations/" + name + ".txt"), space);
-    ASSERT_TRUE(found) << to_string(found.error());
-    ASSERT_EQ(found->size(), wanted["configurations"].size());
-    for (std::size_t c = 0; c < found->size(); ++c) {
-      EXPECT_TRUE(space.check((*found)[c]));
+        value_of(parse_configurations_file(golden_text("configurations/" + name + ".txt"), space));
+    ASSERT_EQ(found.size(), wanted["configurations"].size());
+    for (std::size_t c = 0; c < found.size(); ++c) {
+      EXPECT_TRUE(space.check(found[c]));
       for (std::size_t i = 0; i < space.size(); ++i) {
         const auto& value = wanted["configurations"][c][space[i].name];
-        ASSERT_EQ((*found)[c].is_active(i), !value.is_null()) << space[i].name;
+        ASSERT_EQ(found[c].is_active(i), !value.is_null()) << space[i].name;
         if (value.is_null()) continue;
         if (space.is_numeric(i)) {
-          EXPECT_EQ((*found)[c][i], value.get<double>());
+          EXPECT_EQ(found[c][i], value.get<double>());
         } else {
-          EXPECT_EQ(value_text(space, i, (*found)[c][i]), value.get<std::string>());
+          EXPECT_EQ(value_text(space, i, found[c][i]), value.get<std::string>());
         }
       }
     }
@@ -86,32 +82,30 @@ TEST(ConfigurationsFileGolden, RefusesWhatRRefusesForTheSameReason) {
 }
 
 TEST(CommandLineTextGolden, IsThatOfR) {
-  const auto file = parse_parameter_file(
+  const auto file = value_of(parse_parameter_file(
       {.parameters = {"a \"--a \" c (x,y)\nb \"--b=\" i (1,100000000)\nc \"-c\" r (0,1000000)\n"
                       "d \"\" r (0, 10)\n[global]\ndigits=15\n",
-                      "p"}});
-  ASSERT_TRUE(file) << to_string(file.error());
+                      "p"}}));
   const nlohmann::json cases = golden("model.json", "command_line");
   for (const auto& given : cases) {
     Configuration configuration(4);
     configuration.set(0, given["values"]["a"] == "x" ? 0 : 1);
     for (std::size_t i = 1; i < 4; ++i) {
-      const auto& value = given["values"][file->space[i].name];
+      const auto& value = given["values"][file.space[i].name];
       if (!value.is_null()) configuration.set(i, value);
     }
-    EXPECT_EQ(command_line_text(file->space, configuration), given["line"].get<std::string>());
+    EXPECT_EQ(command_line_text(file.space, configuration), given["line"].get<std::string>());
   }
   EXPECT_GT(cases.size(), 5U);
 }
 
 /// What R wrote is read as numbers, and must come out the same.
 TEST(AclibTextGolden, IsThatOfR) {
-  const auto file = parse_parameter_file(
+  const auto file = value_of(parse_parameter_file(
       {.parameters = {"cost \"cost\" r (0,1)\nbig \"big\" i (100000,200000)\n"
                       "tiny \"tiny\" r,log (0.00001,0.1)\nwide \"wide\" r (0,100000000)\n"
                       "count \"count\" i (1,12)\n[global]\ndigits=15\n",
-                      "p"}});
-  ASSERT_TRUE(file) << to_string(file.error());
+                      "p"}}));
   std::istringstream lines(golden_text("aclib_calls.txt").text);
   int checked = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -122,7 +116,7 @@ TEST(AclibTextGolden, IsThatOfR) {
     std::string value;
     for (std::size_t i = 0; words >> name >> value; ++i)
       configuration.set(i, std::stod(value));
-    EXPECT_EQ(aclib_text(file->space, configuration), line);
+    EXPECT_EQ(aclib_text(file.space, configuration), line);
     ++checked;
   }
   EXPECT_GE(checked, 10);

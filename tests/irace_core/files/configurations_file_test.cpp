@@ -1,10 +1,8 @@
 #include "irace_core/files/configurations_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "irace_core/files/parameter_file.h"
 #include "tests/irace_core/files/random_spaces.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -39,25 +37,24 @@ TEST(ConfigurationsFile, SaysWhereAndWhat) {
 
 TEST(ConfigurationsFile, ReadsTheTablesThatRWrites) {
   const ParameterSpace space = space_of("a \"\" c (\"it's\", say \"x, NA)\nb \"\" r (0,1)");
-  const auto found = parse_configurations_file(
+  const auto found = value_of(parse_configurations_file(
       {"\"a\" \"b\"\r\n\"1\" \"it's\" 0.25\r\n\"2\" \"NA\" 1e-1 # quoted, so the value\r\n", "c"},
-      space);
-  ASSERT_TRUE(found) << to_string(found.error());
-  EXPECT_EQ((*found)[0].choice(0), 0U);
-  EXPECT_EQ((*found)[1].choice(0), 2U);
-  EXPECT_EQ((*found)[1][1], 0.1);
+      space));
+  EXPECT_EQ(found[0].choice(0), 0U);
+  EXPECT_EQ(found[1].choice(0), 2U);
+  EXPECT_EQ(found[1][1], 0.1);
 }
 
 TEST(ConfigurationsFile, AnEmptyTextIsMissingUnlessItIsAValue) {
   const ParameterSpace space =
       space_of("a \"\" c (x, \"\")\nb \"\" r (0,1) | a == \"x\"\nc \"\" c (u, v) | a == \"x\"");
-  const auto found = parse_configurations_file({"a b c\n\"\" \"\" ''\nx 0.5 u\n", "c"}, space);
-  ASSERT_TRUE(found) << to_string(found.error());
-  EXPECT_EQ((*found)[0].choice(0), 1U);
-  EXPECT_FALSE((*found)[0].is_active(1));
-  EXPECT_FALSE((*found)[0].is_active(2));
+  const auto found =
+      value_of(parse_configurations_file({"a b c\n\"\" \"\" ''\nx 0.5 u\n", "c"}, space));
+  EXPECT_EQ(found[0].choice(0), 1U);
+  EXPECT_FALSE(found[0].is_active(1));
+  EXPECT_FALSE(found[0].is_active(2));
   EXPECT_THAT(error_of(space, "a b c\nx 0.5 \"\"\n"),
-              ::testing::HasSubstr("parameter 'c': is active and needs a value"));
+              HasSubstr("parameter 'c': is active and needs a value"));
 }
 
 TEST(ConfigurationsFile, WhatIsPrintedReadsBackAsTheSame) {
@@ -71,11 +68,10 @@ TEST(ConfigurationsFile, WhatIsPrintedReadsBackAsTheSame) {
       const bool known = one && std::count(configurations.begin(), configurations.end(), *one) > 0;
       if (one && !known) configurations.push_back(std::move(*one));
     }
-    const auto text = print_configurations_file(space, configurations);
-    ASSERT_TRUE(text) << to_string(text.error());
-    const auto again = parse_configurations_file({*text, "c"}, space);
-    ASSERT_TRUE(again) << to_string(again.error()) << "\n" << *text;
-    EXPECT_EQ(*again, configurations) << *text;
+    const auto text = value_of(print_configurations_file(space, configurations));
+    const auto again = parse_configurations_file({text, "c"}, space);
+    ASSERT_TRUE(again) << to_string(again.error()) << "\n" << text;
+    EXPECT_EQ(*again, configurations) << text;
     compared += configurations.size();
   }
   EXPECT_GT(compared, 1000U);

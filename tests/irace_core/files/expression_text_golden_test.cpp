@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "irace_core/files/expression_text.h"
 #include "tests/irace_core/golden.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -43,12 +42,11 @@ TEST(ExpressionTextGolden, ValuesAreThoseOfR) {
   };
   for (const auto& given : json["cases"]) {
     SCOPED_TRACE(given["expression"].get<std::string>());
-    auto expression = read(given["expression"]);
-    ASSERT_TRUE(expression) << to_string(expression.error());
-    auto again = read(print(*expression));
-    ASSERT_TRUE(again) << print(*expression) << ": " << to_string(again.error());
-    EXPECT_EQ(*again, *expression) << print(*expression);
-    for (Expression* one : {&*expression, &*again}) {
+    auto expression = value_of(read(given["expression"]));
+    auto again = read(print(expression));
+    ASSERT_TRUE(again) << print(expression) << ": " << to_string(again.error());
+    EXPECT_EQ(*again, expression) << print(expression);
+    for (Expression* one : {&expression, &*again}) {
       ASSERT_TRUE(one->bind(names));
       EXPECT_EQ(to_json(one->evaluate(variables)), given["value"]);
       EXPECT_EQ(one->is_true(variables), given["active"].get<bool>());

@@ -1,14 +1,10 @@
 #include "irace_core/files/foreign_space.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "irace_core/files/command_line_text.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::HasSubstr;
 
 Expected<ForeignSpace> pcs(std::string text, ForeignSpaceOptions options = {}) {
   return parse_pcs_file({std::move(text), "p.pcs"}, options);
@@ -79,11 +75,10 @@ TEST(PcsFile, ManyNamesThatIraceCannotHaveAreOneWarning) {
   std::string text;
   for (int i = 0; i < 500; ++i)
     text += "a-" + std::to_string(i) + " {x, y}[x]\n";
-  const auto read = pcs(text);
-  ASSERT_TRUE(read);
-  ASSERT_EQ(read->warnings.size(), 4U);
-  EXPECT_THAT(read->warnings[2], HasSubstr("p.pcs:3:1: 'a-2' is called 'a_2'"));
-  EXPECT_EQ(read->warnings[3],
+  const auto read = value_of(pcs(text));
+  ASSERT_EQ(read.warnings.size(), 4U);
+  EXPECT_THAT(read.warnings[2], HasSubstr("p.pcs:3:1: 'a-2' is called 'a_2'"));
+  EXPECT_EQ(read.warnings[3],
             "p.pcs: 497 more names are changed like this; --check prints them all");
 }
 

@@ -1,18 +1,14 @@
 #include "irace_core/files/instances_file.h"
 
-#include <gmock/gmock.h>
 #include <filesystem>
 #include <fstream>
 
 #include "base/rng.h"
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 namespace fs = std::filesystem;
 
@@ -24,7 +20,7 @@ void write(const fs::path& file, const std::string& text) {
 TEST(InstancesFile, AByteOrderMarkBelongsToNoInstance) {
   EXPECT_THAT(parse_instances("\xef\xbb\xbf"
                               "a\nb\n"),
-              testing::ElementsAre("a", "b"));
+              ElementsAre("a", "b"));
 }
 
 TEST(InstancesFile, CommentsAndBlanksBeforeInstancesGo) {

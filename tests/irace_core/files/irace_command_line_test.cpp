@@ -1,29 +1,17 @@
-#include <gmock/gmock.h>
-
 #include "irace_core/files/command_line.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-
 using Words = std::vector<std::string>;
 
 IraceCommandLine read(const Words& words) {
-  auto line = read_irace_command_line(words, "/here");
-  EXPECT_TRUE(line) << (line ? "" : to_string(line.error().front()));
-  return line.value_or(IraceCommandLine{});
+  return value_of(read_irace_command_line(words, "/here"));
 }
 
 std::vector<std::string> errors_of(const Words& words) {
-  const auto line = read_irace_command_line(words, "/here");
-  std::vector<std::string> errors;
-  if (line) return errors;
-  for (const Error& error : line.error())
-    errors.push_back(to_string(error));
-  return errors;
+  return complaints_of(read_irace_command_line(words, "/here"));
 }
 
 TEST(IraceCommandLine, ReadsBothFormsOfLongOptionsAndShortOnes) {

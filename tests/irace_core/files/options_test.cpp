@@ -1,6 +1,5 @@
 #include "irace_core/files/options.h"
 
-#include <gmock/gmock.h>
 #include <map>
 #include <set>
 
@@ -9,12 +8,11 @@
 #include "base/text/whole_file.h"
 #include "irace_core/files/internal/setup_fields.h"
 #include "irace_core/files/number_text.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 TEST(IraceOptions, NamesAndSwitchesOccurOnce) {
   std::set<std::string_view> seen;
@@ -69,11 +67,11 @@ TEST(IraceOptions, ThatRDoesNotHaveAreThese) {
     if (option.group != IraceGroup::Old && !of_r.contains(std::string(option.title())))
       own.emplace_back(option.title());
   }
-  EXPECT_THAT(own, testing::ElementsAre(
-                       "--psrace", "--psrace-max-experiments", "--psrace-ids", "--psrace-elites",
-                       "--ablation", "--ablation-type", "--ablation-source", "--ablation-target",
-                       "--ablation-instances", "--ablation-csv", "--workers", "--on-failure",
-                       "--store", "--json", "--verbose", "--no-color"));
+  EXPECT_THAT(own,
+              ElementsAre("--psrace", "--psrace-max-experiments", "--psrace-ids", "--psrace-elites",
+                          "--ablation", "--ablation-type", "--ablation-source", "--ablation-target",
+                          "--ablation-instances", "--ablation-csv", "--workers", "--on-failure",
+                          "--store", "--json", "--verbose", "--no-color"));
 }
 
 TEST(IraceOptions, DefaultsAreValuesOfTheirKind) {
@@ -151,10 +149,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"logFile", "", "\"\""}, Case{"targetRunner", "a \"b\"", "\"a \\\"b\\\"\""}));
 
 TEST(IraceOptions, WrongWordsGetASuggestion) {
-  const auto value = irace_value_of(*find_irace_option("cappingType"), "medain");
-  ASSERT_FALSE(value);
-  EXPECT_THAT(value.error().message, HasSubstr("median, mean, worst, best"));
-  EXPECT_THAT(value.error().message, HasSubstr("did you mean \"median\""));
+  const Error value = why_not(irace_value_of(*find_irace_option("cappingType"), "medain"));
+  EXPECT_THAT(value.message, HasSubstr("median, mean, worst, best"));
+  EXPECT_THAT(value.message, HasSubstr("did you mean \"median\""));
 }
 
 TEST(IraceOptions, NamesOfFieldsBecomeThoseOfOptions) {
@@ -184,10 +181,9 @@ TEST(IraceOptions, HelpListsEverySwitchThatCanBeUsedWithinEightyColumns) {
 }
 
 TEST(IraceOptions, TheDocumentationHasTheTable) {
-  const auto page =
-      read_whole_file(std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "docs/irace-options.md");
-  ASSERT_TRUE(page);
-  EXPECT_THAT(*page, HasSubstr(irace_option_table()));
+  const auto page = value_of(
+      read_whole_file(std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "docs/irace-options.md"));
+  EXPECT_THAT(page, HasSubstr(irace_option_table()));
 }
 
 TEST(NumberText, ShortestTextsReadBack) {

@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <map>
 
@@ -9,12 +6,12 @@
 #include "irace_core/files/parameter_file.h"
 #include "tests/irace_core/files/golden_files.h"
 #include "tests/irace_core/golden.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using namespace swarmsmith::testing;
-using ::testing::HasSubstr;
 
 Expected<ParameterFile> read(const std::string& name) {
   return parse_parameter_file({.parameters = golden_text("parameters/" + name + ".txt"),
@@ -117,9 +114,8 @@ TEST(ParameterFileGolden, ReadsWhatRReadsToTheSameStructure) {
     if (!wanted["valid"].get<bool>()) continue;
     SCOPED_TRACE(name);
     ++read_files;
-    const auto file = read(name);
-    ASSERT_TRUE(file) << to_string(file.error());
-    const ParameterSpace& space = file->space;
+    const auto file = value_of(read(name));
+    const ParameterSpace& space = file.space;
     ASSERT_EQ(space.size(), wanted["n_parameters"].get<std::size_t>());
     EXPECT_EQ(space.variable_count(), wanted["n_variable"].get<int>());
     std::vector<std::string> names;
@@ -136,7 +132,7 @@ TEST(ParameterFileGolden, ReadsWhatRReadsToTheSameStructure) {
     for (std::size_t i = 0; i < forbidden.size(); ++i)
       EXPECT_EQ(space.forbidden()[i], parsed(forbidden[i], names));
     // One file has blanks before a comma, behind quotes: no reason to warn.
-    EXPECT_TRUE(file->warnings.empty()) << file->warnings.front();
+    EXPECT_TRUE(file.warnings.empty()) << file.warnings.front();
   }
   EXPECT_EQ(read_files, 18);
 }
@@ -181,12 +177,11 @@ TEST(ParameterFileGolden, RefusesWhatRRefusesForTheSameReason) {
     if (wanted["valid"].get<bool>()) continue;
     SCOPED_TRACE(name + ", R says: " + wanted["error"].get<std::string>());
     ++refused;
-    const auto file = read(name);
-    ASSERT_FALSE(file);
-    EXPECT_EQ(file.error().kind, ErrorKind::BadInput);
+    const Error file = why_not(read(name));
+    EXPECT_EQ(file.kind, ErrorKind::BadInput);
     ASSERT_EQ(reasons.count(name), 1U);
-    EXPECT_THAT(to_string(file.error()), HasSubstr(reasons.at(name)));
-    EXPECT_THAT(file.error().where, HasSubstr(name + ".txt:"));
+    EXPECT_THAT(to_string(file), HasSubstr(reasons.at(name)));
+    EXPECT_THAT(file.where, HasSubstr(name + ".txt:"));
   }
   EXPECT_EQ(refused, reasons.size());
 }

@@ -1,16 +1,11 @@
 #include "irace_core/files/parameter_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "irace_core/files/expression_text.h"
 #include "tests/irace_core/files/random_spaces.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 Expected<ParameterFile> read(std::string text) {
   return parse_parameter_file({.parameters = {std::move(text), "p.txt"}});
@@ -57,26 +52,24 @@ TEST(ParameterFile, MendsWhatIsADefectInR) {
   EXPECT_THAT(values_of("(,x,)"), ElementsAre("x"));
   EXPECT_EQ(warnings_of("(,x,)").size(), 2U);
   EXPECT_THAT(values_of("(\"x\"y, z)").front(), HasSubstr("behind the closing quote"));
-  const auto file = read("a \"--a#1 \" c (x,y) | b == 'p#q' # comment\nb \"\" c (\"p#q\", r)\n");
-  ASSERT_TRUE(file) << to_string(file.error());
-  EXPECT_EQ(file->space[0].switch_text, "--a#1 ");
-  EXPECT_EQ(print(*file->space[0].condition), "b == \"p#q\"");
+  const auto file =
+      value_of(read("a \"--a#1 \" c (x,y) | b == 'p#q' # comment\nb \"\" c (\"p#q\", r)\n"));
+  EXPECT_EQ(file.space[0].switch_text, "--a#1 ");
+  EXPECT_EQ(print(*file.space[0].condition), "b == \"p#q\"");
 }
 
 TEST(ParameterFile, ConditionsOfIrace35MayHaveDoubledOperators) {
-  const auto file = read("a \"\" i (1,9)\nb \"\" c (x,y) | a > 2 && a < 5 || a == 9");
-  ASSERT_TRUE(file) << to_string(file.error());
-  EXPECT_EQ(print(*file->space[1].condition), "a > 2 & a < 5 | a == 9");
-  EXPECT_THAT(file->warnings,
+  const auto file = value_of(read("a \"\" i (1,9)\nb \"\" c (x,y) | a > 2 && a < 5 || a == 9"));
+  EXPECT_EQ(print(*file.space[1].condition), "a > 2 & a < 5 | a == 9");
+  EXPECT_THAT(file.warnings,
               ElementsAre("p.txt:2:31: '||' is read as '|'", "p.txt:2:22: '&&' is read as '&'"));
 }
 
 TEST(ParameterFile, BoundsMayHoldCommas) {
-  const auto file = read(
-      "ants \"\" i (5,100)\nrank \"\" i (1, min(ants, 10))\n"
-      "other \"\" i ('1', \"min(ants, 10)\")");
-  ASSERT_TRUE(file) << to_string(file.error());
-  EXPECT_EQ(file->space[1].domain, file->space[2].domain);
+  const auto file =
+      value_of(read("ants \"\" i (5,100)\nrank \"\" i (1, min(ants, 10))\n"
+                    "other \"\" i ('1', \"min(ants, 10)\")"));
+  EXPECT_EQ(file.space[1].domain, file.space[2].domain);
 }
 
 TEST(ParameterFile, SaysWhereAndWhat) {
@@ -108,22 +101,20 @@ TEST(ParameterFile, DigitsFromOutsideRoundBoundsAsIrace35Does) {
                                  .forbidden = {},
                                  .dependency = {},
                                  .digits = 2};
-  const auto file = parse_parameter_file(sources);
-  ASSERT_TRUE(file) << to_string(file.error());
-  EXPECT_EQ(std::get<double>(std::get<Real>(file->space[0].domain).lower), 0.13);
-  EXPECT_EQ(file->space.digits(), 2);
-  EXPECT_THAT(file->warnings, ElementsAre("p.txt:1:9: the bound 0.126 of 'a' is rounded to 0.13, "
-                                          "for digits = 2"));
+  const auto file = value_of(parse_parameter_file(sources));
+  EXPECT_EQ(std::get<double>(std::get<Real>(file.space[0].domain).lower), 0.13);
+  EXPECT_EQ(file.space.digits(), 2);
+  EXPECT_THAT(file.warnings, ElementsAre("p.txt:1:9: the bound 0.126 of 'a' is rounded to 0.13, "
+                                         "for digits = 2"));
 }
 
 TEST(ParameterFile, NamesMayHaveLettersOfAnyLanguage) {
-  const auto file = parse_parameter_file(
+  const auto file = value_of(parse_parameter_file(
       {.parameters = {"gr\u00f6\u00dfe \"--g \" i (1,9)\nb \"\" r (0,1) | gr\u00f6\u00dfe > 3\n"
                       "[forbidden]\ngr\u00f6\u00dfe == 5\n",
-                      "p.txt"}});
-  ASSERT_TRUE(file) << to_string(file.error());
-  EXPECT_EQ(file->space[0].name, "gr\u00f6\u00dfe");
-  EXPECT_EQ(file->space.forbidden().size(), 1U);
+                      "p.txt"}}));
+  EXPECT_EQ(file.space[0].name, "gr\u00f6\u00dfe");
+  EXPECT_EQ(file.space.forbidden().size(), 1U);
   EXPECT_THAT(error_of("a\u00a0\"--a \" i (1,9)\n"), HasSubstr("p.txt:1:1"));
 }
 
@@ -141,11 +132,10 @@ TEST(ParameterFile, ReadsTheForbiddenFileOfIrace35) {
                                                   "f.txt"},
                            .dependency = {},
                            .digits = {}};
-  const auto file = parse_parameter_file(sources);
-  ASSERT_TRUE(file) << to_string(file.error());
-  ASSERT_EQ(file->space.forbidden().size(), 2U);
-  EXPECT_EQ(print(file->space.forbidden()[0]), "a > 3 & b == \"x\"");
-  EXPECT_THAT(file->warnings, ElementsAre("f.txt:3:10: '&&' is read as '&'"));
+  const auto file = value_of(parse_parameter_file(sources));
+  ASSERT_EQ(file.space.forbidden().size(), 2U);
+  EXPECT_EQ(print(file.space.forbidden()[0]), "a > 3 & b == \"x\"");
+  EXPECT_THAT(file.warnings, ElementsAre("f.txt:3:10: '&&' is read as '&'"));
   sources.forbidden->text = "a == 1\nzz == 1\n";
   EXPECT_THAT(to_string(parse_parameter_file(sources).error()),
               HasSubstr("f.txt:2:1: there is no parameter 'zz'"));
@@ -194,11 +184,10 @@ TEST(ParameterFile, ReadsAutoMoDesParametersAndItsDependencyFile) {
                            .forbidden = {},
                            .dependency = IraceText{automode_dependencies(), "depend.txt"},
                            .digits = 2};
-  const auto file = parse_parameter_file(sources);
-  ASSERT_TRUE(file) << to_string(file.error());
-  const ParameterSpace& space = file->space;
+  const auto file = value_of(parse_parameter_file(sources));
+  const ParameterSpace& space = file.space;
   EXPECT_EQ(space.size(), 149U);
-  EXPECT_TRUE(file->warnings.empty());
+  EXPECT_TRUE(file.warnings.empty());
   const Domain& n = space[*space.index_of("N2x3")].domain;
   EXPECT_EQ(std::get<double>(std::get<Integer>(n).lower), 0);
   EXPECT_EQ(print(std::get<Expression>(std::get<Integer>(n).upper)), "NumStates - 2");
@@ -237,23 +226,21 @@ TEST(ParameterFile, WhatIsPrintedReadsBackAsTheSame) {
   int odd = 0;
   for (int i = 0; i < 1000; ++i) {
     const ParameterSpace space = testing::random_space(rng);
-    const auto text = print_parameter_file(space);
-    ASSERT_TRUE(text) << to_string(text.error());
-    const auto again = read(*text);
-    ASSERT_TRUE(again) << to_string(again.error()) << "\n" << *text;
+    const auto text = value_of(print_parameter_file(space));
+    const auto again = read(text);
+    ASSERT_TRUE(again) << to_string(again.error()) << "\n" << text;
     expect_same(space, again->space);
     EXPECT_TRUE(again->warnings.empty());
 
-    const auto older = print_irace_35_files(space);
-    ASSERT_TRUE(older);
-    EXPECT_EQ(older->parameters.find('['), std::string::npos);
-    const auto from_older = parse_parameter_file({.parameters = {older->parameters, "p"},
-                                                  .forbidden = IraceText{older->forbidden, "f"},
-                                                  .dependency = {},
-                                                  .digits = older->digits});
-    ASSERT_TRUE(from_older) << to_string(from_older.error());
-    expect_same(space, from_older->space);
-    if (text->find("[forbidden]") != std::string::npos) ++odd;
+    const auto older = value_of(print_irace_35_files(space));
+    EXPECT_EQ(older.parameters.find('['), std::string::npos);
+    const auto from_older =
+        value_of(parse_parameter_file({.parameters = {older.parameters, "p"},
+                                       .forbidden = IraceText{older.forbidden, "f"},
+                                       .dependency = {},
+                                       .digits = older.digits}));
+    expect_same(space, from_older.space);
+    if (text.find("[forbidden]") != std::string::npos) ++odd;
   }
   EXPECT_GT(odd, 100);
 }

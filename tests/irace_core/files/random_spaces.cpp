@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include "tests/irace_core/files/random_expressions.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::testing {
 namespace {
@@ -97,9 +97,7 @@ ParameterSpace random_space(Rng& rng) {
       clause = Expression::call(Operation::Less, {std::move(clause), Expression::number(0.5)});
     forbidden.push_back(std::move(clause));
   }
-  auto space = ParameterSpace::make(std::move(parameters), std::move(forbidden), digits);
-  if (!space) throw std::logic_error("a random space is wrong: " + to_string(space.error()));
-  return std::move(*space);
+  return value_of(ParameterSpace::make(std::move(parameters), std::move(forbidden), digits));
 }
 
 std::optional<Configuration> random_configuration(const ParameterSpace& space, Rng& rng) {

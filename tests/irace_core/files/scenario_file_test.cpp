@@ -1,14 +1,11 @@
 #include "irace_core/files/scenario_file.h"
 
-#include <gmock/gmock.h>
 #include <map>
+
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// Files and environment of a test.
 struct World {
@@ -38,12 +35,7 @@ struct World {
   }
 
   std::vector<std::string> errors(const std::string& text) const {
-    const auto file = parse(text);
-    std::vector<std::string> errors;
-    if (file) return errors;
-    for (const Error& error : file.error())
-      errors.push_back(to_string(error));
-    return errors;
+    return complaints_of(parse(text));
   }
 };
 
@@ -205,20 +197,19 @@ TEST(ScenarioFile, OptionsWithoutAMeaningHereAreRefusedOrIgnored) {
   EXPECT_THAT(world.errors("mpi = FALSE; recoveryFile = NULL; recoveryFile = \"\"\n"
                            "initConfigurations = NULL; targetRunnerParallel = NULL"),
               IsEmpty());
-  const auto file = world.parse("targetRunnerData = list(1)\nloadBalancing = 0\nmpi = 0");
-  ASSERT_TRUE(file);
-  EXPECT_THAT(file->warnings,
+  const auto file = value_of(world.parse("targetRunnerData = list(1)\nloadBalancing = 0\nmpi = 0"));
+  EXPECT_THAT(file.warnings,
               ElementsAre(HasSubstr("scenario.txt:1:1: `targetRunnerData` has no effect here"),
                           HasSubstr("scenario.txt:2:1: `loadBalancing`")));
 }
 
 TEST(ScenarioFile, OptionsOfOlderVersionsAreReadWithAWarning) {
   const World world;
-  const auto file = world.parse("digits = 2\nforbiddenFile = \"f.txt\"\npostselection = 0.1");
-  ASSERT_TRUE(file);
-  EXPECT_EQ(file->settings.number("digits"), 2);
-  EXPECT_EQ(file->settings.text("forbiddenFile"), "f.txt");
-  EXPECT_THAT(file->warnings,
+  const auto file =
+      value_of(world.parse("digits = 2\nforbiddenFile = \"f.txt\"\npostselection = 0.1"));
+  EXPECT_EQ(file.settings.number("digits"), 2);
+  EXPECT_EQ(file.settings.text("forbiddenFile"), "f.txt");
+  EXPECT_THAT(file.warnings,
               ElementsAre(HasSubstr("under [global]"), HasSubstr("under [forbidden]"),
                           HasSubstr("a share of the budget in irace 3.5")));
   EXPECT_THAT(world.errors("instanceDir = \"a\""),
@@ -229,13 +220,12 @@ TEST(ScenarioFile, IncludesOtherFiles) {
   World world;
   world.files = {{"/tune/common/base.txt", ".runs = 50\nfirstTest = 7\nparameterFile = \"p\""}};
   const auto file =
-      world.parse("include.scenario(\"common/base.txt\")\nmaxExperiments = .runs * 10");
-  ASSERT_TRUE(file) << to_string(file.error().front());
-  EXPECT_EQ(file->settings.number("maxExperiments"), 500);
-  EXPECT_EQ(file->settings.number("firstTest"), 7);
-  EXPECT_EQ(file->settings.find("firstTest")->where, "common/base.txt:2:1");
+      value_of(world.parse("include.scenario(\"common/base.txt\")\nmaxExperiments = .runs * 10"));
+  EXPECT_EQ(file.settings.number("maxExperiments"), 500);
+  EXPECT_EQ(file.settings.number("firstTest"), 7);
+  EXPECT_EQ(file.settings.find("firstTest")->where, "common/base.txt:2:1");
   // As in R, every path is relative to the first file.
-  EXPECT_EQ(file->settings.find("parameterFile")->folder, "/tune");
+  EXPECT_EQ(file.settings.find("parameterFile")->folder, "/tune");
 }
 
 TEST(ScenarioFile, IncludesInACircleAreErrors) {

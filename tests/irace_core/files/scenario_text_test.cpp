@@ -1,20 +1,13 @@
 #include "irace_core/files/scenario_text.h"
 
-#include <gmock/gmock.h>
-
 #include "base/rng.h"
 #include "irace_core/files/internal/setup_fields.h"
 #include "irace_core/files/internal/setup_work.h"
 #include "irace_core/files/scenario_file.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::AllOf;
-using testing::Contains;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 std::string random_text(Rng& rng) {
   constexpr std::string_view kLetters = "ab \t\n\"'\\#{}=;,|%$\xc3\xa4";

@@ -1,20 +1,14 @@
 #include "irace_core/files/setup.h"
 
-#include <gmock/gmock.h>
 #include <cstdlib>
 #include <fstream>
 
 #include "irace_core/files/templates.h"
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::AllOf;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 namespace fs = std::filesystem;
 
@@ -48,18 +42,10 @@ class IraceSetupFiles : public testing::Test {
   }
 
   IraceSetup setup(const std::vector<std::string>& words = {}) const {
-    auto setup = read(words);
-    if (setup) return std::move(*setup);
-    ADD_FAILURE() << to_string(setup.error().front());
-    return {};
+    return value_of(read(words));
   }
   std::vector<std::string> errors(const std::vector<std::string>& words = {}) const {
-    const auto setup = read(words);
-    std::vector<std::string> errors;
-    if (setup) return errors;
-    for (const Error& error : setup.error())
-      errors.push_back(to_string(error));
-    return errors;
+    return complaints_of(read(words));
   }
 
   TemporaryFolder folder_;
@@ -193,12 +179,11 @@ TEST(IracePaths, ATildeIsTheHomeFolderAtTheBeginningOnly) {
 
 TEST_F(IraceSetupFiles, DefaultsThatLieBesideTheScenarioAreFoundThere) {
   fs::create_directories(folder_ / "elsewhere");
-  const auto read = read_in(folder_ / "elsewhere", {"-s", "../scenario.txt"});
-  ASSERT_TRUE(read) << to_string(read.error().front());
-  EXPECT_EQ(read->target_runner, path("target-runner"));
-  EXPECT_EQ(read->exec_dir, path("elsewhere"));
-  EXPECT_THAT(read->warnings, ElementsAre(HasSubstr("`parameterFile` is not set"),
-                                          HasSubstr("`targetRunner` is not set")));
+  const auto read = value_of(read_in(folder_ / "elsewhere", {"-s", "../scenario.txt"}));
+  EXPECT_EQ(read.target_runner, path("target-runner"));
+  EXPECT_EQ(read.exec_dir, path("elsewhere"));
+  EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("`parameterFile` is not set"),
+                                         HasSubstr("`targetRunner` is not set")));
 }
 
 TEST_F(IraceSetupFiles, ProgramsWithoutASlashAreLookedForInThePath) {
@@ -347,14 +332,13 @@ TEST(IraceTemplates, AreReadWithoutAnError) {
     if (file.is_program) fs::permissions(folder / file.name, fs::perms::owner_all);
   }
   const std::vector<std::string> words = {"--scenario", "scenario.txt"};
-  const auto setup =
-      read_irace_setup(*read_irace_command_line(words, folder.path()), {folder.path(), ""});
-  ASSERT_TRUE(setup) << to_string(setup.error().front());
-  EXPECT_EQ(setup->space.size(), 4U);
-  EXPECT_EQ(setup->space.forbidden().size(), 1U);
-  EXPECT_EQ(setup->initial.size(), 2U);
-  EXPECT_EQ(setup->training.size(), 5U);
-  EXPECT_THAT(setup->warnings, IsEmpty());
+  const auto setup = value_of(
+      read_irace_setup(*read_irace_command_line(words, folder.path()), {folder.path(), ""}));
+  EXPECT_EQ(setup.space.size(), 4U);
+  EXPECT_EQ(setup.space.forbidden().size(), 1U);
+  EXPECT_EQ(setup.initial.size(), 2U);
+  EXPECT_EQ(setup.training.size(), 5U);
+  EXPECT_THAT(setup.warnings, IsEmpty());
 }
 
 TEST(IraceTemplates, EveryCommentedOptionOfTheScenarioCanBeSwitchedOn) {

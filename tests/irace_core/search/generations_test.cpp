@@ -1,7 +1,6 @@
-#include <gmock/gmock.h>
-
 #include "irace_core/search/generations.h"
 #include "tests/irace_core/search/played.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
@@ -17,19 +16,17 @@ struct Published {
 TEST(GenerationPlan, IsThePublishedOneOfEachPublishedBudget) {
   for (const Published& published : {Published{10'000, 8, 20}, Published{50'000, 40, 100},
                                      Published{100'000, 90, 100}, Published{200'000, 150, 500}}) {
-    const auto plan = search::plan_generations(published.budget, 100, 10, 0);
-    ASSERT_TRUE(plan);
-    EXPECT_EQ(plan->generations, published.generations);
-    EXPECT_EQ(plan->final_runs, published.final_runs);
-    EXPECT_EQ(plan->generations * 1000 + 100 * plan->final_runs, published.budget);
+    const auto plan = value_of(search::plan_generations(published.budget, 100, 10, 0));
+    EXPECT_EQ(plan.generations, published.generations);
+    EXPECT_EQ(plan.final_runs, published.final_runs);
+    EXPECT_EQ(plan.generations * 1000 + 100 * plan.final_runs, published.budget);
   }
 }
 
 TEST(GenerationPlan, GivesWhatIsLeftToTheFinalStage) {
-  const auto plan = search::plan_generations(10'550, 100, 10, 20);
-  ASSERT_TRUE(plan);
-  EXPECT_EQ(plan->generations, 8);
-  EXPECT_EQ(plan->final_runs, 25);
+  const auto plan = value_of(search::plan_generations(10'550, 100, 10, 20));
+  EXPECT_EQ(plan.generations, 8);
+  EXPECT_EQ(plan.final_runs, 25);
 }
 
 TEST(RandomSearch, RunsTheBestAgainOnFurtherPairs) {

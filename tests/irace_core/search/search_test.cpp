@@ -1,4 +1,3 @@
-#include <gmock/gmock.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,12 +7,11 @@
 #include <stdexcept>
 
 #include "tests/irace_core/search/played.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::HasSubstr;
 
 class EverySearch : public ::testing::TestWithParam<SearchKind> {};
 
@@ -183,7 +181,7 @@ TEST_P(EverySearch, GoesOnAfterAnExtensionOrSaysWhyNot) {
   const auto least = search->least_extension();
   if (!least) {
     EXPECT_FALSE(search->extend(100'000));
-    EXPECT_THAT(least.error().message, ::testing::Not(::testing::IsEmpty()));
+    EXPECT_THAT(least.error().message, Not(IsEmpty()));
     return;
   }
   // What is too little for an iteration gives a race a further post-selection.
@@ -224,16 +222,14 @@ TEST(Search, OfOneRaceHasNeitherTimesNorElitesThatBoundThem) {
   Scenario scenario;
   scenario.max_time = 5000;
   const SearchOptions options = options_of(SearchKind::FRace);
-  const auto in_time = start_search(weights_space(3), scenario, options);
-  ASSERT_FALSE(in_time);
-  EXPECT_THAT(to_string(in_time.error()), HasSubstr("the budget of f-race is max_experiments"));
+  EXPECT_THAT(complaint_of(start_search(weights_space(3), scenario, options)),
+              HasSubstr("the budget of f-race is max_experiments"));
   scenario.max_time = 0;
   scenario.max_experiments = 4000;
   scenario.capping = true;
   scenario.bound_max = 10;
-  const auto capped = start_search(weights_space(3), scenario, options);
-  ASSERT_FALSE(capped);
-  EXPECT_THAT(to_string(capped.error()), HasSubstr("capping: is for irace alone"));
+  EXPECT_THAT(complaint_of(start_search(weights_space(3), scenario, options)),
+              HasSubstr("capping: is for irace alone"));
 }
 
 TEST(Search, OptionsOfRacesAreRefusedByTheOthers) {
@@ -254,10 +250,9 @@ TEST(Search, OfWeightsAloneSaysWhatItCannotUse) {
   scenario.max_experiments = 5000;
   for (const SearchKind kind : not_empty(all_searches())) {
     if (!words_of(kind).wants_reals) continue;
-    const auto search = start_search(mixed_space(), scenario, options_of(kind));
-    ASSERT_FALSE(search);
-    EXPECT_EQ(search.error().where, "mode");
-    EXPECT_THAT(search.error().message, HasSubstr(std::string(name_of(kind))));
+    const Error search = why_not(start_search(mixed_space(), scenario, options_of(kind)));
+    EXPECT_EQ(search.where, "mode");
+    EXPECT_THAT(search.message, HasSubstr(std::string(name_of(kind))));
   }
 }
 

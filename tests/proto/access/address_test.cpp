@@ -1,15 +1,10 @@
 #include "proto/access/address.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "proto/socket.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 TEST(Endpoints, AreWhatAPersonTypesWithItsScheme) {
   EXPECT_EQ(endpoint_of("node1:5555", true), "tcp://node1:5555");
@@ -34,14 +29,13 @@ TEST(Endpoints, AreAdvertisedAsOthersReachThem) {
   EXPECT_EQ(advertised_endpoint("tcp://[::]:5555", "fd00::1"), "tcp://[fd00::1]:5555");
   EXPECT_EQ(advertised_endpoint("tcp://[::]:5555", "[fd00::1]"), "tcp://[fd00::1]:5555");
   for (const char* all : {"tcp://0.0.0.0:5555", "tcp://[::]:5555", "tcp://*:5555"}) {
-    const auto found = address_of(advertised_endpoint(all, ""));
-    ASSERT_TRUE(found);
-    EXPECT_FALSE(is_wildcard(found->host));
-    EXPECT_EQ(found->port, 5555);
+    const auto found = value_of(address_of(advertised_endpoint(all, "")));
+    EXPECT_FALSE(is_wildcard(found.host));
+    EXPECT_EQ(found.port, 5555);
     // A name that is known here by numbers of loopback alone is none for others.
-    if (!numbers_of_this_host().empty() && !is_host_number(found->host)) {
-      EXPECT_THAT(numbers_of(found->host).value(),
-                  testing::Contains(testing::Truly([](const auto& n) { return !is_loopback(n); })));
+    if (!numbers_of_this_host().empty() && !is_host_number(found.host)) {
+      EXPECT_THAT(numbers_of(found.host).value(),
+                  Contains(testing::Truly([](const auto& n) { return !is_loopback(n); })));
     }
   }
 }

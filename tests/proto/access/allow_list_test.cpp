@@ -1,7 +1,5 @@
 #include "proto/access/allow_list.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <atomic>
@@ -9,15 +7,12 @@
 
 #include "proto/access/allow_list_file.h"
 #include "proto/access/allow_list_watch.h"
+#include "tests/support/checks.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 constexpr std::chrono::sys_seconds kNoon =
     std::chrono::sys_days(std::chrono::year(2027) / 1 / 31) + std::chrono::hours(12);
@@ -40,12 +35,7 @@ std::string list_of_both() {
 }
 
 std::vector<std::string> complaints_about(const std::string& text) {
-  const AllowListOrErrors list = parse_allow_list(text, "clients.toml");
-  std::vector<std::string> all;
-  if (list) return all;
-  for (const Error& error : list.error())
-    all.push_back(to_string(error));
-  return all;
+  return complaints_of(parse_allow_list(text, "clients.toml"));
 }
 
 TEST(AllowList, ReadsWhatItPrints) {
@@ -127,57 +117,51 @@ class AllowListOnDisk : public ::testing::Test {
 };
 
 TEST_F(AllowListOnDisk, SaysHowAMissingOneIsMade) {
-  const auto opened = AllowListFile::open(file, kNoon);
-  ASSERT_FALSE(opened);
-  EXPECT_THAT(opened.error().front().message, HasSubstr("swarmsmith keygen"));
+  EXPECT_THAT(complaint_of(AllowListFile::open(file, kNoon)), HasSubstr("swarmsmith keygen"));
 }
 
 TEST_F(AllowListOnDisk, IsRefusedWhenOthersMayWriteIt) {
   write(list_of_both());
   chmod(file.c_str(), 0664);
-  const auto opened = AllowListFile::open(file, kNoon);
-  ASSERT_FALSE(opened);
-  EXPECT_THAT(opened.error().front().message, HasSubstr("chmod go-w " + file.string()));
+  EXPECT_THAT(complaint_of(AllowListFile::open(file, kNoon)),
+              HasSubstr("chmod go-w " + file.string()));
 }
 
 TEST_F(AllowListOnDisk, IsReadAgainWhenItChanges) {
   write(list_of_both());
-  auto opened = AllowListFile::open(file, kNoon);
-  ASSERT_TRUE(opened);
-  EXPECT_EQ(opened->clients().size(), 2U);
-  EXPECT_FALSE(opened->look(kNoon).changed);
+  auto opened = value_of(AllowListFile::open(file, kNoon));
+  EXPECT_EQ(opened.clients().size(), 2U);
+  EXPECT_FALSE(opened.look(kNoon).changed);
   write("format = 1\n" + text_of(node()));
-  EXPECT_TRUE(opened->look(kNoon).changed);
-  EXPECT_EQ(opened->clients().size(), 1U);
-  EXPECT_FALSE(opened->look(kNoon).changed);
+  EXPECT_TRUE(opened.look(kNoon).changed);
+  EXPECT_EQ(opened.clients().size(), 1U);
+  EXPECT_FALSE(opened.look(kNoon).changed);
 }
 
 TEST_F(AllowListOnDisk, StaysAsItWasWhenANewOneIsFaulty) {
   write(list_of_both());
-  auto opened = AllowListFile::open(file, kNoon);
-  ASSERT_TRUE(opened);
+  auto opened = value_of(AllowListFile::open(file, kNoon));
   write("format = 1\n[[client]]\nname = 3\n");
-  AllowListFile::Look look = opened->look(kNoon);
+  AllowListFile::Look look = opened.look(kNoon);
   EXPECT_FALSE(look.changed);
   EXPECT_FALSE(look.faults.empty());
-  EXPECT_EQ(opened->clients().size(), 2U);
+  EXPECT_EQ(opened.clients().size(), 2U);
   // Said once.
-  EXPECT_THAT(opened->look(kNoon).faults, IsEmpty());
+  EXPECT_THAT(opened.look(kNoon).faults, IsEmpty());
   std::filesystem::remove(file);
-  look = opened->look(kNoon);
+  look = opened.look(kNoon);
   EXPECT_FALSE(look.faults.empty());
-  EXPECT_EQ(opened->clients().size(), 2U);
+  EXPECT_EQ(opened.clients().size(), 2U);
   write("format = 1\n");
-  EXPECT_TRUE(opened->look(kNoon).changed);
-  EXPECT_THAT(opened->clients(), IsEmpty());
+  EXPECT_TRUE(opened.look(kNoon).changed);
+  EXPECT_THAT(opened.clients(), IsEmpty());
 }
 
 TEST_F(AllowListOnDisk, ChangesWhenADayIsOver) {
   write(list_of_both());
-  auto opened = AllowListFile::open(file, kNoon);
-  ASSERT_TRUE(opened);
-  EXPECT_TRUE(opened->look(kNoon + std::chrono::hours(12)).changed);
-  EXPECT_TRUE(opened->clients().front().expired);
+  auto opened = value_of(AllowListFile::open(file, kNoon));
+  EXPECT_TRUE(opened.look(kNoon + std::chrono::hours(12)).changed);
+  EXPECT_TRUE(opened.clients().front().expired);
 }
 
 TEST_F(AllowListOnDisk, IsWatched) {

@@ -1,17 +1,14 @@
 #include "proto/access/coordinator_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <fstream>
 
 #include "proto/curve.h"
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::HasSubstr;
 
 CoordinatorFile example() {
   return {.endpoint = "tcp://login1:5555",
@@ -98,15 +95,12 @@ TEST(CoordinatorFiles, AreRefusedWhenOthersMayWriteThem) {
   const std::filesystem::path path = folder / "f";
   ASSERT_TRUE(write_coordinator_file(path, example()));
   chmod(path.c_str(), 0666);
-  const auto read = read_coordinator_file(path);
-  ASSERT_FALSE(read);
-  EXPECT_THAT(read.error().message, HasSubstr("chmod go-w"));
+  EXPECT_THAT(complaint_of(read_coordinator_file(path)), HasSubstr("chmod go-w"));
 }
 
 TEST(CoordinatorFiles, ThatCannotBeWrittenSayWhy) {
-  const auto written = write_coordinator_file("/no-such-folder/f", example());
-  ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().where, "/no-such-folder/f");
+  EXPECT_EQ(why_not(write_coordinator_file("/no-such-folder/f", example())).where,
+            "/no-such-folder/f");
 }
 
 }  // namespace

@@ -1,17 +1,14 @@
 #include "proto/access/find_coordinator.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <cstdlib>
 
 #include "proto/access/coordinator_file.h"
 #include "proto/access/key_file.h"
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::HasSubstr;
 
 constexpr const char* kNear = "tcp://127.0.0.1:5555";
 constexpr const char* kFar = "tcp://login1:5555";
@@ -123,17 +120,14 @@ TEST_F(FindCoordinator, RefusesAKeyOfAnotherCoordinator) {
 }
 
 TEST_F(FindCoordinator, SaysWhatIsMissing) {
-  const auto none = find_coordinator({.file = file});
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().kind, ErrorKind::NotFound) << "it may come yet";
+  EXPECT_EQ(why_not(find_coordinator({.file = file})).kind, ErrorKind::NotFound)
+      << "it may come yet";
   std::filesystem::remove(folder.client_key("worker"));
-  const auto keyless = find_coordinator({.endpoint = kFar});
-  ASSERT_FALSE(keyless);
-  EXPECT_EQ(keyless.error().kind, ErrorKind::BadInput);
-  EXPECT_THAT(keyless.error().message, HasSubstr("tcp://login1:5555 needs a key"));
-  const auto named = find_coordinator({.endpoint = kFar, .key = temporary / "no.key"});
-  ASSERT_FALSE(named);
-  EXPECT_THAT(named.error().message, testing::Not(HasSubstr("needs a key")));
+  const Error keyless = why_not(find_coordinator({.endpoint = kFar}));
+  EXPECT_EQ(keyless.kind, ErrorKind::BadInput);
+  EXPECT_THAT(keyless.message, HasSubstr("tcp://login1:5555 needs a key"));
+  EXPECT_THAT(why_not(find_coordinator({.endpoint = kFar, .key = temporary / "no.key"})).message,
+              Not(HasSubstr("needs a key")));
 }
 
 }  // namespace

@@ -1,29 +1,17 @@
 #include "proto/access/key_folder.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 #include "proto/access/allow_list_file.h"
 #include "proto/access/key_file.h"
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
-
-std::string text_in(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 unsigned mode_of(const std::filesystem::path& file) {
   struct stat status = {};
@@ -34,10 +22,9 @@ unsigned mode_of(const std::filesystem::path& file) {
 class Keys : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto files = make_key_folder(folder);
-    ASSERT_TRUE(files) << to_string(files.error());
-    EXPECT_THAT(*files, ElementsAre(folder.server_key(), worker, folder.client_key("operator"),
-                                    folder.client_key("reader"), folder.clients()));
+    const auto files = value_of(make_key_folder(folder));
+    EXPECT_THAT(files, ElementsAre(folder.server_key(), worker, folder.client_key("operator"),
+                                   folder.client_key("reader"), folder.clients()));
   }
 
   std::string refusal(const std::filesystem::path& file) {
@@ -57,28 +44,23 @@ TEST_F(Keys, AreForTheirOwnerOnly) {
 }
 
 TEST_F(Keys, FitTogether) {
-  const auto server = read_server_key(folder.server_key());
-  ASSERT_TRUE(server) << to_string(server.error());
-  const auto key = read_client_key(worker);
-  ASSERT_TRUE(key) << to_string(key.error());
-  EXPECT_EQ(key->server_key, server->public_key);
-  EXPECT_EQ(key->name, "worker");
-  EXPECT_EQ(key->role, Role::Worker);
-  const auto list = AllowListFile::open(folder.clients(), {});
-  ASSERT_TRUE(list);
-  ASSERT_EQ(list->clients().size(), 3U);
-  EXPECT_EQ(list->clients()[0].public_key, key->pair.public_key);
-  EXPECT_EQ(list->clients()[1].role, Role::Operator);
-  EXPECT_EQ(list->clients()[2].role, Role::Reader);
-  EXPECT_THAT(text_in(folder.clients()), Not(HasSubstr(key->pair.secret_key)));
+  const auto server = value_of(read_server_key(folder.server_key()));
+  const auto key = value_of(read_client_key(worker));
+  EXPECT_EQ(key.server_key, server.public_key);
+  EXPECT_EQ(key.name, "worker");
+  EXPECT_EQ(key.role, Role::Worker);
+  const auto list = value_of(AllowListFile::open(folder.clients(), {}));
+  ASSERT_EQ(list.clients().size(), 3U);
+  EXPECT_EQ(list.clients()[0].public_key, key.pair.public_key);
+  EXPECT_EQ(list.clients()[1].role, Role::Operator);
+  EXPECT_EQ(list.clients()[2].role, Role::Reader);
+  EXPECT_THAT(whole_file(folder.clients()), Not(HasSubstr(key.pair.secret_key)));
 }
 
 TEST_F(Keys, AreNeverOverwritten) {
-  const std::string before = text_in(worker);
-  const auto again = make_key_folder(folder);
-  ASSERT_FALSE(again);
-  EXPECT_EQ(again.error().kind, ErrorKind::Conflict);
-  EXPECT_EQ(text_in(worker), before);
+  const std::string before = whole_file(worker);
+  EXPECT_EQ(why_not(make_key_folder(folder)).kind, ErrorKind::Conflict);
+  EXPECT_EQ(whole_file(worker), before);
   // Nor one of them, and then none of the others is made.
   std::filesystem::remove(folder.server_key());
   EXPECT_FALSE(make_key_folder(folder));
@@ -86,17 +68,15 @@ TEST_F(Keys, AreNeverOverwritten) {
 }
 
 TEST_F(Keys, OfFurtherClientsAreAdded) {
-  const auto file = add_client(
+  const auto file = value_of(add_client(
       folder,
-      {.name = "node.7", .role = Role::Worker, .expires = std::chrono::year(2027) / 1 / 31});
-  ASSERT_TRUE(file) << to_string(file.error());
-  EXPECT_EQ(mode_of(*file), 0600U);
+      {.name = "node.7", .role = Role::Worker, .expires = std::chrono::year(2027) / 1 / 31}));
+  EXPECT_EQ(mode_of(file), 0600U);
   EXPECT_EQ(mode_of(folder.clients()), 0600U);
-  EXPECT_THAT(text_in(folder.clients()), HasSubstr("expires = 2027-01-31"));
-  EXPECT_THAT(text_in(folder.clients()), HasSubstr("# Who may connect"));
-  const auto list = AllowListFile::open(folder.clients(), {});
-  ASSERT_TRUE(list);
-  EXPECT_EQ(list->clients().back().public_key, read_client_key(*file)->pair.public_key);
+  EXPECT_THAT(whole_file(folder.clients()), HasSubstr("expires = 2027-01-31"));
+  EXPECT_THAT(whole_file(folder.clients()), HasSubstr("# Who may connect"));
+  const auto list = value_of(AllowListFile::open(folder.clients(), {}));
+  EXPECT_EQ(list.clients().back().public_key, read_client_key(file)->pair.public_key);
   for (const char* name : {"node.7", "../x", "", "server", ".x"})
     EXPECT_FALSE(add_client(folder, {.name = name, .role = Role::Worker, .expires = {}})) << name;
   EXPECT_EQ(AllowListFile::open(folder.clients(), {})->clients().size(), 4U);
@@ -104,16 +84,16 @@ TEST_F(Keys, OfFurtherClientsAreAdded) {
 
 /// A client's file is copied to its host and taken away; its name stays in the list.
 TEST_F(Keys, OfAClientAreNotMadeAgainWhenItsFileWasMoved) {
-  const auto file = add_client(folder, {.name = "node.7", .role = Role::Worker, .expires = {}});
-  ASSERT_TRUE(file);
-  std::filesystem::remove(*file);
-  const std::string list = text_in(folder.clients());
-  const auto again = add_client(folder, {.name = "node.7", .role = Role::Worker, .expires = {}});
-  ASSERT_FALSE(again);
-  EXPECT_EQ(again.error().kind, ErrorKind::Conflict);
-  EXPECT_THAT(again.error().message, HasSubstr("choose another name"));
-  EXPECT_EQ(text_in(folder.clients()), list);
-  EXPECT_FALSE(std::filesystem::exists(*file));
+  const auto file =
+      value_of(add_client(folder, {.name = "node.7", .role = Role::Worker, .expires = {}}));
+  std::filesystem::remove(file);
+  const std::string list = whole_file(folder.clients());
+  const Error again =
+      why_not(add_client(folder, {.name = "node.7", .role = Role::Worker, .expires = {}}));
+  EXPECT_EQ(again.kind, ErrorKind::Conflict);
+  EXPECT_THAT(again.message, HasSubstr("choose another name"));
+  EXPECT_EQ(whole_file(folder.clients()), list);
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST_F(Keys, ThatOthersMayReadAreRefused) {
@@ -133,7 +113,7 @@ TEST_F(Keys, OfSomebodyElseAreRefused) {
 
 TEST_F(Keys, ThatAreDamagedAreRefusedWithoutShowingThem) {
   const ClientKeyFile key = read_client_key(worker).value();
-  const std::string good = text_in(worker);
+  const std::string good = whole_file(worker);
   const std::string& secret = key.pair.secret_key;
   const auto damaged = [&](const std::string& what, const std::string& by) {
     std::string text = good;
@@ -158,16 +138,14 @@ TEST_F(Keys, ThatAreDamagedAreRefusedWithoutShowingThem) {
 
 TEST_F(Keys, OfServerAndClientsAreToldApart) {
   EXPECT_THAT(refusal(folder.server_key()), HasSubstr("the coordinator's key"));
-  const auto server = read_server_key(worker);
-  ASSERT_FALSE(server);
-  EXPECT_THAT(to_string(server.error()), HasSubstr("a client's key"));
+  EXPECT_THAT(complaint_of(read_server_key(worker)), HasSubstr("a client's key"));
 }
 
 TEST_F(Keys, ThatAreMissingAreNamed) {
   EXPECT_THAT(refusal(folder.client_key("nobody")), HasSubstr("nobody.key"));
-  const auto added = add_client({temporary / "other"}, {.name = "a", .role = {}, .expires = {}});
-  ASSERT_FALSE(added);
-  EXPECT_THAT(added.error().message, HasSubstr("swarmsmith keygen"));
+  EXPECT_THAT(
+      complaint_of(add_client({temporary / "other"}, {.name = "a", .role = {}, .expires = {}})),
+      HasSubstr("swarmsmith keygen"));
 }
 
 TEST(KeyFolders, AreWhereTheEnvironmentSays) {

@@ -1,6 +1,5 @@
 #include "proto/scenario/scenario.h"
 
-#include <gmock/gmock.h>
 #include <cmath>
 #include <functional>
 
@@ -10,13 +9,11 @@
 #include "sim/files/profile_file.h"
 #include "tests/sim/every_noise.h"
 #include "tests/sim/random_mission.h"
+#include "tests/support/checks.h"
 #include "tests/support/score_rules.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::StartsWith;
 
 WorkerScenario some_scenario() {
   return {.campaign_digest = "0123456789abcdef0123456789abcdef",
@@ -74,9 +71,8 @@ TEST(Scenarios, RefuseAClockOfTurnsThatIsNotKnown) {
   ASSERT_TRUE(message.ParseFromString(to_bytes({some_scenario()})));
   message.mutable_campaigns(0)->mutable_methods(1)->set_turn_clock(
       static_cast<pb::Method::TurnClock>(7));
-  const auto read = scenarios_from_bytes(message.SerializeAsString());
-  ASSERT_FALSE(read);
-  EXPECT_EQ(read.error().where, "methods[1].turn_clock");
+  EXPECT_EQ(why_not(scenarios_from_bytes(message.SerializeAsString())).where,
+            "methods[1].turn_clock");
 }
 
 TEST(Scenarios, GiveBackTheMethods) {
@@ -91,10 +87,9 @@ TEST(Scenarios, HaveAFlavourThatIsNotBuiltInWhole) {
   const std::string before = to_bytes({scenario});
   scenario.methods.front() = {
       .flavour = mine.name, .turn_clock = TurnClock::Cycles, .own_flavour = kept_flavour(mine)};
-  const auto read = read_back(scenario);
-  ASSERT_TRUE(read.has_value()) << to_string(read.error());
-  EXPECT_EQ(read->methods, scenario.methods);
-  EXPECT_EQ(*read->methods.front().own_flavour, mine);
+  const auto read = value_of(read_back(scenario));
+  EXPECT_EQ(read.methods, scenario.methods);
+  EXPECT_EQ(*read.methods.front().own_flavour, mine);
   EXPECT_NE(to_bytes({scenario}), before);
   pb::PoolScenario message;
   ASSERT_TRUE(message.ParseFromString(to_bytes({scenario})));

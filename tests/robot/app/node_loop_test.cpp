@@ -1,12 +1,8 @@
 #include "robot/app/node_loop.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <fstream>
 #include <limits>
-#include <sstream>
 #include <thread>
 
 #include "robot/runtime/replay.h"
@@ -16,6 +12,7 @@
 #include "sim/engine/simulate.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -23,7 +20,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using testing::HasSubstr;
 
 constexpr const char* kMachine =
     "--nstates 2 --s0 0 --rwm0 10 --n0 1 --n0x0 0 --c0x0 0 --p0x0 0.8 "
@@ -174,14 +170,12 @@ TEST(NodeLoop, RunsWhatIsOrderedAndWritesItsLog) {
   EXPECT_EQ(node.ending, NodeLoop::Ending::Asked);
   outside.hear_treads(now());
   EXPECT_EQ(outside.speed, 0);
-  const auto record = read_robot_log(folder / "run07.rvr1.log.csv");
-  ASSERT_TRUE(record) << to_string(record.error().front());
-  ASSERT_TRUE(record->head.end);
-  EXPECT_EQ(record->head.end->state, "ended");
-  EXPECT_EQ(static_cast<std::int64_t>(record->rows.size()) + record->head.end->skipped, 99);
-  const auto replay = replay_log(*record);
-  ASSERT_TRUE(replay);
-  EXPECT_FALSE(replay->difference);
+  const auto record = value_of(read_robot_log(folder / "run07.rvr1.log.csv"));
+  ASSERT_TRUE(record.head.end);
+  EXPECT_EQ(record.head.end->state, "ended");
+  EXPECT_EQ(static_cast<std::int64_t>(record.rows.size()) + record.head.end->skipped, 99);
+  const auto replay = value_of(replay_log(record));
+  EXPECT_FALSE(replay.difference);
 }
 
 TEST(NodeLoop, StandsStillOnItsWayOut) {
@@ -197,10 +191,9 @@ TEST(NodeLoop, StandsStillOnItsWayOut) {
   node.join();
   outside.hear_treads(now());
   EXPECT_EQ(outside.speed, 0);
-  const auto record = read_robot_log(folder / "run07.rvr1.toml");
-  ASSERT_TRUE(record);
-  EXPECT_EQ(record->head.end->state, "stopped");
-  EXPECT_EQ(record->head.end->verdict, RunVerdict::Invalid);
+  const auto record = value_of(read_robot_log(folder / "run07.rvr1.toml"));
+  EXPECT_EQ(record.head.end->state, "stopped");
+  EXPECT_EQ(record.head.end->verdict, RunVerdict::Invalid);
 }
 
 TEST(NodeLoop, StandsStillWhenSensorsFallSilentAndFails) {
@@ -229,20 +222,17 @@ TEST(NodeLoop, DoesNotBeginARunWhoseLogIsThereAlready) {
   ASSERT_TRUE(outside.until([](const NodeState& state) { return !state.refused.empty(); }));
   EXPECT_THAT(outside.state.refused, HasSubstr("run07.rvr1.log.csv: it is there already"));
   EXPECT_EQ(outside.state.phase, Phase::Idle);
-  std::ostringstream text;
-  text << std::ifstream(folder / "run07.rvr1.log.csv").rdbuf();
-  EXPECT_EQ(text.str(), "precious");
+  EXPECT_EQ(whole_file(folder / "run07.rvr1.log.csv"), "precious");
   EXPECT_TRUE(outside.start(1, "run08"));
 }
 
 TEST(NodeLoop, OverAWireRefusesOrdersThatAreOldRepeatedOrForeign) {
   const TemporaryFolder folder;
-  auto server = zmq_robot_end("rvr1", {.end = {.sensors = {.neighbours = true}}});
-  ASSERT_TRUE(server) << to_string(server.error());
-  RunningNode node(*server->end, {.logs = folder.path()});
+  auto server = value_of(zmq_robot_end("rvr1", {.end = {.sensors = {.neighbours = true}}}));
+  RunningNode node(*server.end, {.logs = folder.path()});
   const EndOptions options = {.sensors = {.neighbours = true}};
-  const auto world = zmq_world_end({{"rvr1", server->endpoint}}, {.end = options});
-  const auto operating = zmq_operator_end({{"rvr1", server->endpoint}}, {.end = options});
+  const auto world = zmq_world_end({{"rvr1", server.endpoint}}, {.end = options});
+  const auto operating = zmq_operator_end({{"rvr1", server.endpoint}}, {.end = options});
   ASSERT_TRUE(world && operating);
   Outside outside(**world, **operating);
   ASSERT_TRUE(outside.until_phase(Phase::Ready));
@@ -260,10 +250,9 @@ TEST(NodeLoop, OverAWireRefusesOrdersThatAreOldRepeatedOrForeign) {
   (*operating)->send(OrderMessage{.text = "{\"order\":\"start\""});
   EXPECT_TRUE(refused("JSON"));
   EXPECT_NE(outside.state.phase, Phase::Armed);
-  const auto obeyed = outside.start(60);
-  ASSERT_TRUE(obeyed);
+  const auto obeyed = value_of(outside.start(60));
   ASSERT_TRUE(outside.until_phase(Phase::Running));
-  outside.send(*obeyed);
+  outside.send(obeyed);
   EXPECT_TRUE(refused("before"));
   Order stop = outside.order(Order::Kind::Stop, "run06");
   outside.send(stop);
@@ -271,7 +260,7 @@ TEST(NodeLoop, OverAWireRefusesOrdersThatAreOldRepeatedOrForeign) {
   EXPECT_EQ(outside.state.phase, Phase::Running);
   outside.send(outside.order(Order::Kind::Stop));
   ASSERT_TRUE(outside.until_phase(Phase::Stopped));
-  outside.send(*obeyed);  // played back after the run
+  outside.send(obeyed);  // played back after the run
   EXPECT_TRUE(outside.until([](const NodeState& state) { return !state.refused.empty(); }));
   EXPECT_EQ(outside.state.phase, Phase::Stopped);
 }
@@ -296,18 +285,17 @@ TEST(NodeLoop, InLockStepGivesTheBitsOfTheSimulatorAndLogsThatReplay) {
   sensors.senses = true;
   for (const std::int64_t seed : {3, 4}) {
     const Instance instance = instance_of(mission, seed).value();
-    const auto result = run_in_lock_step(
+    const auto result = value_of(run_in_lock_step(
         swarm.world(), sensors,
-        {.profile = profile, .mission = mission, .instance = instance, .seed = seed}, {});
-    ASSERT_TRUE(result) << to_string(result.error());
+        {.profile = profile, .mission = mission, .instance = instance, .seed = seed}, {}));
     const SimulationResult wanted = simulate({.controller = controller,
                                               .flavour = watermelon(),
                                               .profile = profile,
                                               .mission = mission,
                                               .instance = instance,
                                               .seed = seed});
-    EXPECT_EQ(result->score, wanted.score);
-    EXPECT_EQ(result->state_digest, wanted.state_digest);
+    EXPECT_EQ(result.score, wanted.score);
+    EXPECT_EQ(result.state_digest, wanted.state_digest);
   }
   end_runs(swarm.world());
   for (const auto& node : nodes) {
@@ -315,13 +303,11 @@ TEST(NodeLoop, InLockStepGivesTheBitsOfTheSimulatorAndLogsThatReplay) {
     EXPECT_EQ(node->ending, NodeLoop::Ending::NoMoreRuns);
   }
   for (const char* name : {"exact-seed3.rvr1", "exact-seed4.rvr1", "exact-seed3.rvr3"}) {
-    const auto record = read_robot_log(folder / (std::string(name) + ".toml"));
-    ASSERT_TRUE(record) << to_string(record.error().front());
-    EXPECT_EQ(record->rows.size(), 1200U);
-    EXPECT_EQ(record->head.end.value().verdict, RunVerdict::Valid);
-    const auto replay = replay_log(*record);
-    ASSERT_TRUE(replay);
-    EXPECT_FALSE(replay->difference) << replay->difference->what;
+    const auto record = value_of(read_robot_log(folder / (std::string(name) + ".toml")));
+    EXPECT_EQ(record.rows.size(), 1200U);
+    EXPECT_EQ(record.head.end.value().verdict, RunVerdict::Valid);
+    const auto replay = value_of(replay_log(record));
+    EXPECT_FALSE(replay.difference) << replay.difference->what;
   }
 }
 
@@ -333,7 +319,7 @@ TEST(NodeLoop, InLockStepEndsWhenTheWorldIsGone) {
   swarm.world().send(0, senses);
   node.join();
   EXPECT_EQ(node.ending, NodeLoop::Ending::Lost);
-  EXPECT_THAT(node.notes, testing::ElementsAre(HasSubstr("the world is silent")));
+  EXPECT_THAT(node.notes, ElementsAre(HasSubstr("the world is silent")));
 }
 
 }  // namespace

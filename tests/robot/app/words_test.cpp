@@ -1,15 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "robot/app/commands.h"
 #include "robot/app/machine_word.h"
 #include "robot/app/robot_names.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 TEST(RobotNames, AreNumbersOrNames) {
   EXPECT_EQ(robot_name("2").value(), "rvr2");
@@ -34,12 +29,10 @@ TEST(RosWords, AreOptionsOfOurs) {
 }
 
 TEST(MachineWord, NeedsAFlavour) {
-  const auto without = robot_machine("--nstates 1 --s0 1", "", {});
-  ASSERT_FALSE(without);
-  EXPECT_THAT(without.error().message, HasSubstr("give --flavour"));
-  const auto with = robot_machine("--nstates 1 --s0 1", "watermelon", TurnClock::Seconds);
-  ASSERT_TRUE(with);
-  EXPECT_EQ(with->flavour.exploration.turn_clock, TurnClock::Seconds);
+  EXPECT_THAT(complaint_of(robot_machine("--nstates 1 --s0 1", "", {})),
+              HasSubstr("give --flavour"));
+  const auto with = value_of(robot_machine("--nstates 1 --s0 1", "watermelon", TurnClock::Seconds));
+  EXPECT_EQ(with.flavour.exploration.turn_clock, TurnClock::Seconds);
   EXPECT_FALSE(robot_machine("--nstates 9 --s0 1", "watermelon", {}));
   EXPECT_FALSE(robot_machine("/no/such/file.fsm", "watermelon", {}));
 }

@@ -1,14 +1,9 @@
 #include "robot/log/track_log.h"
 
-#include <gmock/gmock.h>
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 constexpr char kSidecar[] =
     "frame,time_s,clock_s\n0,0.000000,5010.250000\n1,0.033000,5010.283000\n"
@@ -28,9 +23,8 @@ StartedRun run07() {
 }
 
 TEST(TrackLogTest, SaysTheStartOnTheTimesOfTheVideo) {
-  const auto clock = camera_clock_of(kSidecar, "run07.times.csv");
-  ASSERT_TRUE(clock) << to_string(clock.error());
-  const TrackLog log = track_log_of(run07(), *clock);
+  const auto clock = value_of(camera_clock_of(kSidecar, "run07.times.csv"));
+  const TrackLog log = track_log_of(run07(), clock);
   EXPECT_THAT(log.warnings, IsEmpty());
   EXPECT_EQ(log.text, R"(# Written by `swarmsmith-robot start`, for `swarmsmith track score --run`.
 format = 1
@@ -65,29 +59,27 @@ reasons = ["it did not answer after the run"]
 }
 
 TEST(TrackLogTest, CountsFromTheFirstFrameWhateverItsTimeIs) {
-  const auto clock = camera_clock_of(
-      "frame,clock_s,time_s\n0,900.5,1764075000.125\n1,901,1764075000.625\n", "t.csv");
-  ASSERT_TRUE(clock);
+  const auto clock = value_of(camera_clock_of(
+      "frame,clock_s,time_s\n0,900.5,1764075000.125\n1,901,1764075000.625\n", "t.csv"));
   StartedRun run = run07();
   run.at_clock_s = 900.75;
-  EXPECT_THAT(track_log_of(run, *clock).text, HasSubstr("start = \"1764075000.375000 s\""));
+  EXPECT_THAT(track_log_of(run, clock).text, HasSubstr("start = \"1764075000.375000 s\""));
 }
 
 TEST(TrackLogTest, TakesARecordingThatGoesOn) {
   // Its last row is being written.
-  const auto clock = camera_clock_of("frame,time_s,clock_s\n0,0.0,10.0\n1,3.0,13.0\n2,3.03,1", "t");
-  ASSERT_TRUE(clock);
-  EXPECT_EQ(clock->last_clock_s, 13.0);
+  const auto clock =
+      value_of(camera_clock_of("frame,time_s,clock_s\n0,0.0,10.0\n1,3.0,13.0\n2,3.03,1", "t"));
+  EXPECT_EQ(clock.last_clock_s, 13.0);
   EXPECT_THAT(camera_clock_of("frame,time_s,clock_s\n0,0.0", "t.csv").error().message,
               HasSubstr("no frame in it yet"));
 }
 
 TEST(TrackLogTest, FrameTimesWithoutAClockSayWhatToDo) {
-  const auto none = camera_clock_of("frame,time_s\n0,0.0\n", "t.csv");
-  ASSERT_FALSE(none);
-  EXPECT_THAT(to_string(none.error()), HasSubstr("t.csv"));
-  EXPECT_THAT(none.error().message, HasSubstr("no column `clock_s`"));
-  EXPECT_THAT(none.error().message, HasSubstr("--start"));
+  const Error none = why_not(camera_clock_of("frame,time_s\n0,0.0\n", "t.csv"));
+  EXPECT_THAT(to_string(none), HasSubstr("t.csv"));
+  EXPECT_THAT(none.message, HasSubstr("no column `clock_s`"));
+  EXPECT_THAT(none.message, HasSubstr("--start"));
   EXPECT_THAT(camera_clock_of("a,b\n1,2\n", "t.csv").error().message, HasSubstr("`time_s`"));
   EXPECT_THAT(to_string(camera_clock_of("time_s,clock_s\n1,2\nx,3\n", "t.csv").error()),
               HasSubstr("t.csv:3"));

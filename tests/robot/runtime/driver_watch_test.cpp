@@ -1,19 +1,15 @@
 #include "robot/runtime/driver_watch.h"
 
-#include <gmock/gmock.h>
-
 #include <functional>
 
 #include "tests/robot/runtime/bench_robot.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using std::chrono::milliseconds;
 using testing::AnyOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// A run of 30 s of a robot that turns now and then, whose driver is played by a function from
 /// 5 s on: it gets what was commanded, newest last, and says what it likes.
@@ -102,7 +98,6 @@ TEST(DriverWatch, ADriverThatObeysIsValidAndMayTakeTwoCycles) {
 }
 
 TEST(DriverWatch, TheLogSaysForHowLongTheDriverDidNotObey) {
-  using testing::AllOf;
   using testing::Field;
   const auto is = [](bool driven, RunVerdict driver, double least_s, double most_s) {
     return AllOf(Field(&RunEnd::driven, driven), Field(&RunEnd::driver, driver),

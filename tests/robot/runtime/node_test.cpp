@@ -1,20 +1,14 @@
 #include "robot/runtime/node.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "tests/robot/runtime/bench_robot.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 TEST(RobotNode, IsIdleUntilEverySensorThatTheMachineNeedsHasSpoken) {
   BenchRobot robot;
@@ -462,9 +456,8 @@ TEST(RobotNode, InLockStepTakesCyclesInOrderOnly) {
   EXPECT_EQ(robot.state().run, "run-seed7");
   EXPECT_TRUE(robot.node.answer(senses(7, 2), robot.now()));
   EXPECT_TRUE(robot.node.answer(senses(8, 1), robot.now())) << "the next run";
-  const auto wrong = robot.node.answer(senses(8, 3), robot.now());
-  ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().message, "cycle 3 of seed 8 came after cycle 1 of seed 8");
+  EXPECT_EQ(why_not(robot.node.answer(senses(8, 3), robot.now())).message,
+            "cycle 3 of seed 8 came after cycle 1 of seed 8");
   EXPECT_EQ(robot.state().phase, Phase::Failed);
   EXPECT_FALSE(robot.node.answer(senses(8, 2), robot.now()));
   EXPECT_TRUE(robot.node.answer(senses(9, 1), robot.now()));
@@ -491,12 +484,11 @@ TEST(RobotNode, InLockStepIsWhatTheControllerIs) {
       sensed.neighbours.push_back({seen.distance_m, seen.direction_x, seen.direction_y});
     SensedSenses senses(sensed);
     const Command wanted = control.step(senses);
-    const auto decision = robot.node.answer(message, robot.now());
-    ASSERT_TRUE(decision);
-    EXPECT_EQ(*decision->command, wanted);
-    EXPECT_EQ(decision->state, control.state());
-    EXPECT_EQ(decision->row->drawn, control.drawn());
-    EXPECT_EQ(decision->row->sensed.time_s, message.time_s) << "the world's time";
+    const auto decision = value_of(robot.node.answer(message, robot.now()));
+    EXPECT_EQ(*decision.command, wanted);
+    EXPECT_EQ(decision.state, control.state());
+    EXPECT_EQ(decision.row->drawn, control.drawn());
+    EXPECT_EQ(decision.row->sensed.time_s, message.time_s) << "the world's time";
   }
 }
 

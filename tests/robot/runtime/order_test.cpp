@@ -2,10 +2,8 @@
 
 #include <limits>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "robot/runtime/node_state.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -76,20 +74,18 @@ TEST(Orders, OfAStartHaveLimitsThatAreMeant) {
 TEST(Orders, WithUnknownKeysStopButDoNotStart) {
   const auto start = parse_order(R"({"order":"start","id":"a","run":"r","seconds":3,"sed":7})");
   ASSERT_FALSE(start);
-  EXPECT_THAT(start.error().message, testing::HasSubstr("a start has no key `sed`"));
-  const auto stop = parse_order(R"({"order":"stop","id":"a","runs":"r","why":1})");
-  ASSERT_TRUE(stop);
-  EXPECT_EQ(stop->unknown_keys, "`runs`, `why`");
+  EXPECT_THAT(start.error().message, HasSubstr("a start has no key `sed`"));
+  const auto stop = value_of(parse_order(R"({"order":"stop","id":"a","runs":"r","why":1})"));
+  EXPECT_EQ(stop.unknown_keys, "`runs`, `why`");
 }
 
 TEST(OrderDoor, RefusesOldRepeatedAndFutureStarts) {
   OrderDoor door("rvr1");
   Order order = start_order();
-  EXPECT_THAT(door.refusal(order, order.sent_unix_s + 1.5).value(),
-              testing::HasSubstr("1.5 s old"));
-  EXPECT_THAT(door.refusal(order, order.sent_unix_s - 2).value(), testing::HasSubstr("ahead"));
+  EXPECT_THAT(door.refusal(order, order.sent_unix_s + 1.5).value(), HasSubstr("1.5 s old"));
+  EXPECT_THAT(door.refusal(order, order.sent_unix_s - 2).value(), HasSubstr("ahead"));
   EXPECT_EQ(door.refusal(order, order.sent_unix_s + 0.5), std::nullopt);
-  EXPECT_THAT(door.refusal(order, order.sent_unix_s + 0.6).value(), testing::HasSubstr("before"));
+  EXPECT_THAT(door.refusal(order, order.sent_unix_s + 0.6).value(), HasSubstr("before"));
   order.id = "a1-8";
   EXPECT_EQ(door.refusal(order, order.sent_unix_s + 0.5), std::nullopt);
   order.sent_unix_s = std::numeric_limits<double>::quiet_NaN();
@@ -158,10 +154,10 @@ TEST(NodeStates, ReadBackFromTheirText) {
   EXPECT_FALSE(parse_state("nonsense"));
   EXPECT_FALSE(parse_state(R"({"state":"dancing"})"));
   // Of another version: a field of another type, or one too many, is as if it were not there.
-  const auto other = parse_state(R"({"state":"idle","verdict":"GOOD","age_ms":3,"reasons":["a",3],)"
-                                 R"("cycle":1.5,"new":1})");
-  ASSERT_TRUE(other);
-  EXPECT_EQ(*other, (NodeState{.verdict = RunVerdict::Invalid, .reasons = {"a"}}));
+  const auto other =
+      value_of(parse_state(R"({"state":"idle","verdict":"GOOD","age_ms":3,"reasons":["a",3],)"
+                           R"("cycle":1.5,"new":1})"));
+  EXPECT_EQ(other, (NodeState{.verdict = RunVerdict::Invalid, .reasons = {"a"}}));
 }
 
 }  // namespace

@@ -1,21 +1,15 @@
 #include "robot/runtime/roll_call.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <memory>
 
 #include "tests/robot/runtime/bench_robot.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// Three nodes and an operator under one clock that the test moves by 10 ms.
 class Bench {

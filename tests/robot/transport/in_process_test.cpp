@@ -1,6 +1,6 @@
 #include "robot/transport/in_process.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -13,25 +13,22 @@ TEST(InProcessSwarm, CarriesReadingsCommandsAndOrders) {
   InProcessSwarm swarm({"rvr1", "rvr2"});
   swarm.world().send(1, RangesMessage{{}, {0.1, 0.2}});
   EXPECT_FALSE(swarm.robot(0).receive(now()).has_value());
-  const auto ranges = swarm.robot(1).receive(now());
-  ASSERT_TRUE(ranges.has_value());
-  EXPECT_EQ(std::get<RangesMessage>(*ranges).ranges_m, (std::vector<double>{0.1, 0.2}));
-  EXPECT_GT(std::get<RangesMessage>(*ranges).arrival.at.time_since_epoch().count(), 0);
+  const auto ranges = value_of(swarm.robot(1).receive(now()));
+  EXPECT_EQ(std::get<RangesMessage>(ranges).ranges_m, (std::vector<double>{0.1, 0.2}));
+  EXPECT_GT(std::get<RangesMessage>(ranges).arrival.at.time_since_epoch().count(), 0);
 
   swarm.robot(1).send(WheelsMessage{{}, 0.3, 0.1, {}, {}});
-  const auto wheels = swarm.world().receive(now());
-  ASSERT_TRUE(wheels.has_value());
-  EXPECT_EQ(wheels->robot, 1U);
-  EXPECT_EQ(std::get<WheelsMessage>(wheels->message).sender, "rvr2");
+  const auto wheels = value_of(swarm.world().receive(now()));
+  EXPECT_EQ(wheels.robot, 1U);
+  EXPECT_EQ(std::get<WheelsMessage>(wheels.message).sender, "rvr2");
 
   swarm.operator_end().send(OrderMessage{{}, "{}"});
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_TRUE(std::holds_alternative<OrderMessage>(*swarm.robot(i).receive(now())));
 
   swarm.robot(0).send(StateMessage{{}, "{\"state\":\"idle\"}"});
-  const auto state = swarm.operator_end().receive(now());
-  ASSERT_TRUE(state.has_value());
-  EXPECT_EQ(std::get<StateMessage>(state->message).text, "{\"state\":\"idle\"}");
+  const auto state = value_of(swarm.operator_end().receive(now()));
+  EXPECT_EQ(std::get<StateMessage>(state.message).text, "{\"state\":\"idle\"}");
 }
 
 TEST(InProcessSwarm, KeepsTheNewestReadingAndEveryOrder) {

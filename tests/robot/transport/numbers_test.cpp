@@ -1,13 +1,11 @@
 #include "robot/transport/numbers.h"
 
-#include <gmock/gmock.h>
-
 #include <limits>
+
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
 
 TEST(Numbers, SensesOfAnotherLengthOrWithAHalfCycleAreNone) {
   std::vector<double> numbers = numbers_of(SensesMessage{.neighbours = {{0.5, 1, 0}}});

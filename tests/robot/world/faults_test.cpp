@@ -1,27 +1,24 @@
 #include "robot/world/faults.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 
 #include "base/math.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 TEST(Faults, AreReadFromWords) {
-  const auto silent = parse_fault("rvr1:ranges:silent:10-10.3");
-  ASSERT_TRUE(silent.has_value());
-  EXPECT_EQ(*silent, (Fault{.robot = "rvr1",
-                            .sensor = "ranges",
-                            .kind = Fault::Kind::Silent,
-                            .from_s = 10,
-                            .to_s = 10.3}));
-  const auto scan = parse_fault("rvr2:scan:500:0-");
-  ASSERT_TRUE(scan.has_value());
-  EXPECT_EQ(scan->length, 500);
-  EXPECT_EQ(scan->to_s, std::numeric_limits<double>::infinity());
+  const auto silent = value_of(parse_fault("rvr1:ranges:silent:10-10.3"));
+  EXPECT_EQ(silent, (Fault{.robot = "rvr1",
+                           .sensor = "ranges",
+                           .kind = Fault::Kind::Silent,
+                           .from_s = 10,
+                           .to_s = 10.3}));
+  const auto scan = value_of(parse_fault("rvr2:scan:500:0-"));
+  EXPECT_EQ(scan.length, 500);
+  EXPECT_EQ(scan.to_s, std::numeric_limits<double>::infinity());
   EXPECT_TRUE(parse_fault("rvr2:scan:turned:0-").has_value());
   EXPECT_TRUE(parse_fault("rvr2:light:nan:1-2").has_value());
 }
@@ -34,7 +31,7 @@ TEST(Faults, WordsThatAreNoneSayHowTheyAreWritten) {
         "rvr1:ranges:silent:-1-2", "rvr1:ranges:silent:1-2:3"}) {
     const auto fault = parse_fault(wrong);
     ASSERT_FALSE(fault.has_value()) << wrong;
-    EXPECT_NE(fault.error().message.find("ROBOT:SENSOR:WHAT:FROM-TO"), std::string::npos);
+    EXPECT_THAT(fault.error().message, HasSubstr("ROBOT:SENSOR:WHAT:FROM-TO"));
   }
 }
 

@@ -1,7 +1,5 @@
 #include "robot/world/lock_step.h"
 
-#include <gmock/gmock.h>
-
 #include <atomic>
 #include <limits>
 #include <memory>
@@ -11,11 +9,10 @@
 #include "robot/transport/in_process.h"
 #include "robot/world/sensor_messages.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr int kRobots = 3;
 
@@ -110,10 +107,9 @@ TEST(LockStep, ByNumberHasTheBitsOfARunWithoutNodes) {
     const Scene scene(profile);
     InProcessSwarm swarm(names());
     const Nodes nodes(swarm, scene.controller, watermelon(), Pace::Senses, 1);
-    const auto result = run_in_lock_step(swarm.world(), by_number(), scene.run(), {});
-    ASSERT_TRUE(result.has_value()) << to_string(result.error());
-    EXPECT_EQ(result->state_digest, scene.alone().state_digest) << profile;
-    EXPECT_EQ(result->score, scene.alone().score) << profile;
+    const auto result = value_of(run_in_lock_step(swarm.world(), by_number(), scene.run(), {}));
+    EXPECT_EQ(result.state_digest, scene.alone().state_digest) << profile;
+    EXPECT_EQ(result.score, scene.alone().score) << profile;
     end_runs(swarm.world());
   }
 }
@@ -124,9 +120,8 @@ TEST(LockStep, OneNodeRunsSeedAfterSeed) {
   const Nodes nodes(swarm, controller, watermelon(), Pace::Senses, 1);
   for (const std::int64_t seed : {3, 4, 3}) {
     const Scene scene("rvr", seed);
-    const auto result = run_in_lock_step(swarm.world(), by_number(), scene.run(), {});
-    ASSERT_TRUE(result.has_value()) << to_string(result.error());
-    EXPECT_EQ(result->state_digest, scene.alone().state_digest) << seed;
+    const auto result = value_of(run_in_lock_step(swarm.world(), by_number(), scene.run(), {}));
+    EXPECT_EQ(result.state_digest, scene.alone().state_digest) << seed;
   }
 }
 
@@ -134,18 +129,16 @@ TEST(LockStep, ByCountingHasTheSameBits) {
   const Scene scene("rvr");
   InProcessSwarm swarm(names());
   const Nodes nodes(swarm, scene.controller, watermelon(), Pace::CountedTopics, scene.seed);
-  const auto result = run_in_lock_step(swarm.world(), world_topics(), scene.run(), {});
-  ASSERT_TRUE(result.has_value()) << to_string(result.error());
-  EXPECT_EQ(result->state_digest, scene.alone().state_digest);
+  const auto result = value_of(run_in_lock_step(swarm.world(), world_topics(), scene.run(), {}));
+  EXPECT_EQ(result.state_digest, scene.alone().state_digest);
 }
 
 TEST(LockStep, AnotherRandomStreamIsAnotherRun) {
   const Scene scene("rvr");
   InProcessSwarm swarm(names());
   const Nodes nodes(swarm, scene.controller, watermelon(), Pace::Senses, 1, 1);
-  const auto result = run_in_lock_step(swarm.world(), by_number(), scene.run(), {});
-  ASSERT_TRUE(result.has_value());
-  EXPECT_NE(result->state_digest, scene.alone().state_digest);
+  const auto result = value_of(run_in_lock_step(swarm.world(), by_number(), scene.run(), {}));
+  EXPECT_NE(result.state_digest, scene.alone().state_digest);
 }
 
 /// Answers for all robots until `until`; then in another way.

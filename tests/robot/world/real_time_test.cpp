@@ -1,18 +1,15 @@
 #include "robot/world/real_time.h"
 
-#include <gmock/gmock.h>
-
 #include <atomic>
 #include <thread>
 
 #include "robot/transport/in_process.h"
 #include "robot/world/sensor_messages.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 /// One robot in the middle, alone, for a while.
 struct Scene {

@@ -1,15 +1,13 @@
 #include "robot/world/simulated_driver.h"
 
-#include <gmock/gmock.h>
-
 #include <limits>
+
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 TimePoint at(int ms) {
   return TimePoint{} + std::chrono::hours(1) + milliseconds(ms);

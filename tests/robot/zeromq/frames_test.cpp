@@ -1,15 +1,13 @@
 #include "robot/zeromq/frames.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "tests/support/checks.h"
+
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
 
 /// Reads the frame, and writes it again.
 std::string again(const std::string& frame) {
@@ -69,9 +67,8 @@ TEST(Frames, OfImuAndOdometryAreKnownAndNotUsed) {
 }
 
 TEST(Frames, TakeWhatPythonPrints) {
-  const auto came = message_to_robot("ranges 0 0.31 inf -inf nan 1e-05 2 3.0 4");
-  ASSERT_TRUE(came.has_value());
-  const auto& ranges = std::get<RangesMessage>(*came).ranges_m;
+  const auto came = value_of(message_to_robot("ranges 0 0.31 inf -inf nan 1e-05 2 3.0 4"));
+  const auto& ranges = std::get<RangesMessage>(came).ranges_m;
   ASSERT_EQ(ranges.size(), 8U);
   EXPECT_TRUE(std::isnan(ranges[3]));
   EXPECT_EQ(ranges[4], 1e-05);

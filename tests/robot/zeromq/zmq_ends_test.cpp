@@ -1,15 +1,12 @@
 #include "robot/zeromq/zmq_ends.h"
 
-#include <gmock/gmock.h>
-
 #include <thread>
 
 #include "proto/socket.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 TimePoint in(std::chrono::milliseconds time) {
   return SystemClock().now() + time;
@@ -47,40 +44,34 @@ std::optional<Message> next_of(End& end) {
 }
 
 TEST(ZmqEnds, CarryReadingsCommandsStatesAndOrders) {
-  auto node = zmq_robot_end("rvr1", {});
-  ASSERT_TRUE(node.has_value()) << to_string(node.error());
-  auto world = zmq_world_end({{"rvr1", node->endpoint}}, {});
-  ASSERT_TRUE(world.has_value()) << to_string(world.error());
-  auto operating = zmq_operator_end({{"rvr1", node->endpoint}}, {});
-  ASSERT_TRUE(operating.has_value());
-  ASSERT_TRUE(becomes([&] { return (*world)->connected(0) && node->end->connected(); }));
-  ASSERT_TRUE(becomes([&] { return (*operating)->connected(0); }));
+  auto node = value_of(zmq_robot_end("rvr1", {}));
+  auto world = value_of(zmq_world_end({{"rvr1", node.endpoint}}, {}));
+  auto operating = value_of(zmq_operator_end({{"rvr1", node.endpoint}}, {}));
+  ASSERT_TRUE(becomes([&] { return world->connected(0) && node.end->connected(); }));
+  ASSERT_TRUE(becomes([&] { return operating->connected(0); }));
 
-  (*world)->send(0, RangesMessage{{}, {0.1 + 0.2}});
-  const auto ranges = next<RangesMessage>(*node->end);
-  ASSERT_TRUE(ranges.has_value());
-  EXPECT_EQ(ranges->ranges_m.front(), 0.1 + 0.2);
+  world->send(0, RangesMessage{{}, {0.1 + 0.2}});
+  const auto ranges = value_of(next<RangesMessage>(*node.end));
+  EXPECT_EQ(ranges.ranges_m.front(), 0.1 + 0.2);
 
-  node->end->send(WheelsMessage{{}, 0.3, 0.1, {}, {}});
-  const auto wheels = next_of<WheelsMessage>(**world);
-  ASSERT_TRUE(wheels.has_value());
-  EXPECT_EQ(wheels->left_mps, 0.3);
+  node.end->send(WheelsMessage{{}, 0.3, 0.1, {}, {}});
+  const auto wheels = value_of(next_of<WheelsMessage>(*world));
+  EXPECT_EQ(wheels.left_mps, 0.3);
 
-  (*operating)->send(OrderMessage{{}, "{\"order\":\"stop\"}"});
-  EXPECT_EQ(next<OrderMessage>(*node->end)->text, "{\"order\":\"stop\"}");
+  operating->send(OrderMessage{{}, "{\"order\":\"stop\"}"});
+  EXPECT_EQ(next<OrderMessage>(*node.end)->text, "{\"order\":\"stop\"}");
 
-  node->end->send(StateMessage{{}, "{}"});
-  EXPECT_EQ(next_of<StateMessage>(**operating)->text, "{}");
-  EXPECT_EQ(next_of<StateMessage>(**world)->text, "{}");
+  node.end->send(StateMessage{{}, "{}"});
+  EXPECT_EQ(next_of<StateMessage>(*operating)->text, "{}");
+  EXPECT_EQ(next_of<StateMessage>(*world)->text, "{}");
 }
 
 TEST(ZmqEnds, WhoComesLateHearsTheLastState) {
-  auto node = zmq_robot_end("rvr1", {});
-  ASSERT_TRUE(node.has_value());
-  node->end->send(StateMessage{{}, "{\"n\":1}"});
-  node->end->send(StateMessage{{}, "{\"n\":2}"});
-  node->end->flush(std::chrono::seconds(10));  // who comes before then hears both
-  auto operating = zmq_operator_end({{"rvr1", node->endpoint}}, {});
+  auto node = value_of(zmq_robot_end("rvr1", {}));
+  node.end->send(StateMessage{{}, "{\"n\":1}"});
+  node.end->send(StateMessage{{}, "{\"n\":2}"});
+  node.end->flush(std::chrono::seconds(10));  // who comes before then hears both
+  auto operating = zmq_operator_end({{"rvr1", node.endpoint}}, {});
   EXPECT_EQ(next_of<StateMessage>(**operating)->text, "{\"n\":2}");
 }
 
@@ -92,94 +83,83 @@ TEST(ZmqEnds, KeysSayWhoMayDoWhat) {
   options.keys = ServerKeys{.secret_key = server.secret_key,
                             .clients = {{"driver", Role::Worker, driver.public_key},
                                         {"boss", Role::Operator, boss.public_key}}};
-  auto node = zmq_robot_end("rvr1", options);
-  ASSERT_TRUE(node.has_value());
+  auto node = value_of(zmq_robot_end("rvr1", options));
   const auto with = [&](const KeyPair& pair) {
     return NodeClientOptions{
         .keys = ClientKeys{.secret_key = pair.secret_key, .server_key = server.public_key}};
   };
-  auto world = zmq_world_end({{"rvr1", node->endpoint}}, with(driver));
-  auto operating = zmq_operator_end({{"rvr1", node->endpoint}}, with(boss));
-  auto other = zmq_operator_end({{"rvr1", node->endpoint}}, with(driver));
+  auto world = zmq_world_end({{"rvr1", node.endpoint}}, with(driver));
+  auto operating = zmq_operator_end({{"rvr1", node.endpoint}}, with(boss));
+  auto other = zmq_operator_end({{"rvr1", node.endpoint}}, with(driver));
   ASSERT_TRUE(becomes([&] {
     return (*world)->connected(0) && (*operating)->connected(0) && (*other)->connected(0);
   }));
   (*other)->send(OrderMessage{{}, "{\"order\":\"kill\"}"});
-  const auto refused = next<TroubleMessage>(*node->end);
-  ASSERT_TRUE(refused.has_value());
-  EXPECT_THAT(refused->text, HasSubstr("its key is not an operator's"));
+  const auto refused = value_of(next<TroubleMessage>(*node.end));
+  EXPECT_THAT(refused.text, HasSubstr("its key is not an operator's"));
   (*operating)->send(OrderMessage{{}, "{\"order\":\"stop\"}"});
-  EXPECT_EQ(next<OrderMessage>(*node->end)->text, "{\"order\":\"stop\"}");
+  EXPECT_EQ(next<OrderMessage>(*node.end)->text, "{\"order\":\"stop\"}");
 
-  auto stranger = zmq_operator_end({{"rvr1", node->endpoint}}, with(make_key_pair()));
-  const auto told = next_of<TroubleMessage>(**stranger);
-  ASSERT_TRUE(told.has_value());
-  EXPECT_THAT(told->text, HasSubstr("does not accept this key"));
+  auto stranger = zmq_operator_end({{"rvr1", node.endpoint}}, with(make_key_pair()));
+  const auto told = value_of(next_of<TroubleMessage>(**stranger));
+  EXPECT_THAT(told.text, HasSubstr("does not accept this key"));
   EXPECT_FALSE((*stranger)->connected(0));
-  const auto said = next<TroubleMessage>(*node->end);
-  ASSERT_TRUE(said.has_value());
-  EXPECT_EQ(said->text, "a client at 127.0.0.1 was refused: unlisted key");
+  const auto said = value_of(next<TroubleMessage>(*node.end));
+  EXPECT_EQ(said.text, "a client at 127.0.0.1 was refused: unlisted key");
 }
 
 TEST(ZmqEnds, KnowWhoDrivesAndWhatItSays) {
-  auto node = zmq_robot_end("rvr1", {});
-  ASSERT_TRUE(node.has_value());
-  auto world = zmq_world_end({{"rvr1", node->endpoint}}, {});
-  auto operating = zmq_operator_end({{"rvr1", node->endpoint}}, {});
+  auto node = value_of(zmq_robot_end("rvr1", {}));
+  auto world = zmq_world_end({{"rvr1", node.endpoint}}, {});
+  auto operating = zmq_operator_end({{"rvr1", node.endpoint}}, {});
   ASSERT_TRUE(becomes([&] { return (*world)->connected(0) && (*operating)->connected(0); }));
-  ASSERT_TRUE(becomes([&] { return node->end->connected(); }));
-  const std::vector<Listener> listeners = node->end->listeners();
+  ASSERT_TRUE(becomes([&] { return node.end->connected(); }));
+  const std::vector<Listener> listeners = node.end->listeners();
   ASSERT_EQ(listeners.size(), 1U) << "an operator gets no speeds";
   EXPECT_TRUE(listeners[0].drives);
   (*world)->send(0, DrivenMessage{{}, 0.3, 0.1, {}});
-  const auto driven = next<DrivenMessage>(*node->end);
-  ASSERT_TRUE(driven.has_value());
-  EXPECT_EQ(driven->left_mps, 0.3);
-  EXPECT_EQ(driven->right_mps, 0.1);
-  EXPECT_EQ(driven->sender, listeners[0].name);
-  EXPECT_GE(node->end->listeners()[0].heard, listeners[0].heard);
+  const auto driven = value_of(next<DrivenMessage>(*node.end));
+  EXPECT_EQ(driven.left_mps, 0.3);
+  EXPECT_EQ(driven.right_mps, 0.1);
+  EXPECT_EQ(driven.sender, listeners[0].name);
+  EXPECT_GE(node.end->listeners()[0].heard, listeners[0].heard);
   world->reset();
   EXPECT_TRUE(becomes([&] {
-    node->end->send(WheelsMessage{});
-    return !node->end->connected();
+    node.end->send(WheelsMessage{});
+    return !node.end->connected();
   }));
 }
 
 TEST(ZmqEnds, WhatADriverSaysAfterAnotherHelloIsNotBelieved) {
-  auto node = zmq_robot_end("rvr1", {});
-  ASSERT_TRUE(node.has_value());
-  ClientSocket client(node->endpoint);
+  auto node = value_of(zmq_robot_end("rvr1", {}));
+  ClientSocket client(node.endpoint);
   client.connect();
   client.send("hello driver");
-  ASSERT_TRUE(becomes([&] { return node->end->connected(); }));
+  ASSERT_TRUE(becomes([&] { return node.end->connected(); }));
   client.send("hello operator");
-  const auto said = next<TroubleMessage>(*node->end);
-  ASSERT_TRUE(said.has_value());
-  EXPECT_THAT(said->text, HasSubstr("drives no more: it said `hello operator`"));
-  EXPECT_FALSE(node->end->connected());
+  const auto said = value_of(next<TroubleMessage>(*node.end));
+  EXPECT_THAT(said.text, HasSubstr("drives no more: it said `hello operator`"));
+  EXPECT_FALSE(node.end->connected());
   client.send("odom 0 1 2 3 4 5 6");  // of older drivers: no trouble
   client.send("driven 0 0.3 0.3");
-  EXPECT_THAT(next<TroubleMessage>(*node->end)->text, HasSubstr("it is not believed"));
+  EXPECT_THAT(next<TroubleMessage>(*node.end)->text, HasSubstr("it is not believed"));
 }
 
 TEST(ZmqEnds, ASecondNodeOfTheRobotFindsTheAddressTaken) {
-  auto node = zmq_robot_end("rvr1", {});
-  ASSERT_TRUE(node.has_value());
-  const auto second = zmq_robot_end("rvr1", {.endpoint = node->endpoint});
+  auto node = value_of(zmq_robot_end("rvr1", {}));
+  const auto second = zmq_robot_end("rvr1", {.endpoint = node.endpoint});
   ASSERT_FALSE(second.has_value());
   EXPECT_EQ(second.error().kind, ErrorKind::Conflict);
 }
 
 TEST(ZmqEnds, ANodeThatComesBackIsFoundAgain) {
-  auto node = zmq_robot_end("rvr1", {});
-  ASSERT_TRUE(node.has_value());
-  const std::string endpoint = node->endpoint;
+  auto node = value_of(zmq_robot_end("rvr1", {}));
+  const std::string endpoint = node.endpoint;
   auto world = zmq_world_end({{"rvr1", endpoint}}, {});
   ASSERT_TRUE(becomes([&] { return (*world)->connected(0); }));
-  node->end.reset();
-  const auto told = next_of<TroubleMessage>(**world);
-  ASSERT_TRUE(told.has_value());
-  EXPECT_THAT(told->text, HasSubstr("rvr1"));
+  node.end.reset();
+  const auto told = value_of(next_of<TroubleMessage>(**world));
+  EXPECT_THAT(told.text, HasSubstr("rvr1"));
   EXPECT_FALSE((*world)->connected(0));
   auto again = zmq_robot_end("rvr1", {.endpoint = endpoint});
   ASSERT_TRUE(again.has_value()) << to_string(again.error());
@@ -187,9 +167,8 @@ TEST(ZmqEnds, ANodeThatComesBackIsFoundAgain) {
 }
 
 TEST(ZmqEnds, ANodeOfAnotherNameIsNotTaken) {
-  auto node = zmq_robot_end("rvr2", {});
-  ASSERT_TRUE(node.has_value());
-  auto world = zmq_world_end({{"rvr1", node->endpoint}}, {});
+  auto node = value_of(zmq_robot_end("rvr2", {}));
+  auto world = zmq_world_end({{"rvr1", node.endpoint}}, {});
   EXPECT_THAT(next_of<TroubleMessage>(**world)->text, HasSubstr("rvr2's, not rvr1's"));
   EXPECT_FALSE((*world)->connected(0));
 }

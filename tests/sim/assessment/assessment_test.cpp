@@ -1,18 +1,13 @@
 #include "sim/assessment/assessment.h"
 #include "sim/files/profile_file.h"
 #include "sim/files/robot_file.h"
-
-#include <gmock/gmock.h>
+#include "tests/support/checks.h"
 
 #include <map>
 #include <utility>
 
 namespace swarmsmith::assessment {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 Report assessed(const char* flavour, const char* profile) {
   return assess({**find_flavour(flavour), *built_in_profile(profile), rvr()});

@@ -1,26 +1,22 @@
-#include <gmock/gmock.h>
-
 #include <stdexcept>
 
 #include "sim/assessment/assessment.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/checks.h"
 
 // A flavour with one wrong number fails in the module that uses it, and in no other.
 
 namespace swarmsmith::assessment {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-
 struct Failures {
   std::vector<std::string> modules;
   std::string notes;
 };
 
-Failures failures_of(const Flavour& flavour, const char* profile = "argos3") {
+Failures failures_of(const Flavour& flavour) {
   Failures failures;
-  for (const ModuleReport& module : assess({flavour, *built_in_profile(profile), rvr()}).modules) {
+  for (const ModuleReport& module : assess({flavour, *built_in_profile("argos3"), rvr()}).modules) {
     if (module.passes()) continue;
     failures.modules.emplace_back(id_of(module.module));
     for (const Check& check : module.checks)
@@ -29,32 +25,44 @@ Failures failures_of(const Flavour& flavour, const char* profile = "argos3") {
   return failures;
 }
 
-TEST(BrokenFlavour, ABlackThatTakesInGrayFailsBlackFloor) {
-  Flavour flavour = watermelon();
-  flavour.floor.black.high = 130'000;
-  const Failures failures = failures_of(flavour);
-  EXPECT_THAT(failures.modules, ElementsAre("black_floor"));
-  EXPECT_THAT(failures.notes, HasSubstr("also take the floor 127, 127, 127 for it"));
-}
+struct Break {
+  const char* name;
+  void (*change)(Flavour&);
+  const char* module;
+  const char* note = "";
+};
 
-TEST(BrokenFlavour, AWhiteThatNothingReachesFailsWhiteFloor) {
-  Flavour flavour = watermelon();
-  flavour.floor.white.low = 255'001;
-  const Failures failures = failures_of(flavour);
-  EXPECT_THAT(failures.modules, ElementsAre("white_floor"));
-  EXPECT_THAT(failures.notes, HasSubstr("do not take the white disc (255, 255, 255) for it"));
-}
+const Break kBreaks[] = {
+    {"a black that takes in grey", [](Flavour& f) { f.floor.black.high = 130'000; }, "black_floor",
+     "also take the floor 127, 127, 127 for it"},
+    {"a white that nothing reaches", [](Flavour& f) { f.floor.white.low = 255'001; }, "white_floor",
+     "do not take the white disc (255, 255, 255) for it"},
+    {"a grey beside the floors",
+     [](Flavour& f) {
+       f.floor.gray = {140'000, 170'000};
+     },
+     "gray_floor"},
+    {"green as yellow", [](Flavour& f) { f.floor.labels[0].hue_deg = 60; }, "color_detection"},
+    {"a repulsion with the sign turned", [](Flavour& f) { f.neighbours.repulsion_gain *= -1; },
+     "repulsion"},
+    {"an attraction with the sign turned", [](Flavour& f) { f.neighbours.attraction_gain *= -1; },
+     "attraction"},
+    {"a probability that is not set",
+     [](Flavour& f) {
+       f.behaviours.clear();
+       f.conditions.resize(1);
+       f.conditions[0].parameters[0].name = "gamma";  // 0: the middle of 0 to 1, as an integer
+     },
+     "black_floor", "did not fire in "}};
 
-TEST(BrokenFlavour, AGrayBesideTheFloorsFailsGrayFloor) {
-  Flavour flavour = watermelon();
-  flavour.floor.gray = {140'000, 170'000};
-  EXPECT_THAT(failures_of(flavour).modules, ElementsAre("gray_floor"));
-}
-
-TEST(BrokenFlavour, ALabelWithAWrongHueFailsColorDetection) {
-  Flavour flavour = watermelon();
-  flavour.floor.labels[0].hue_deg = 60;  // green as yellow
-  EXPECT_THAT(failures_of(flavour).modules, ElementsAre("color_detection"));
+TEST(BrokenFlavour, FailsInTheModuleThatUsesTheNumberAlone) {
+  for (const Break& one : kBreaks) {
+    Flavour flavour = watermelon();
+    one.change(flavour);
+    const Failures failures = failures_of(flavour);
+    EXPECT_THAT(failures.modules, ElementsAre(one.module)) << one.name;
+    EXPECT_THAT(failures.notes, HasSubstr(one.note)) << one.name;
+  }
 }
 
 // The flavour's numbers are right, and yet robots cross the spot without reading it as black.
@@ -68,18 +76,6 @@ TEST(BrokenFlavour, ANoiseThatHidesTheSpotFailsBlackFloorWithTheReason) {
   EXPECT_THAT(report.modules.at(0).checks.at(0).note, HasSubstr("the reading satisfied it in "));
   EXPECT_THAT(report.modules.at(0).checks.at(0).note, HasSubstr("did not fire over the black"));
   EXPECT_FALSE(report.passes());
-}
-
-TEST(BrokenFlavour, ARepulsionWithTheSignTurnedFails) {
-  Flavour flavour = watermelon();
-  flavour.neighbours.repulsion_gain = -flavour.neighbours.repulsion_gain;
-  EXPECT_THAT(failures_of(flavour).modules, ElementsAre("repulsion"));
-}
-
-TEST(BrokenFlavour, AnAttractionWithTheSignTurnedFails) {
-  Flavour flavour = watermelon();
-  flavour.neighbours.attraction_gain = -flavour.neighbours.attraction_gain;
-  EXPECT_THAT(failures_of(flavour).modules, ElementsAre("attraction"));
 }
 
 TEST(BrokenFlavour, AnExplorationThatSeesNothingFailsByContact) {
@@ -109,16 +105,6 @@ TEST(BrokenFlavour, AModuleInTheWrongTableIsRefused) {
   EXPECT_THROW(assess({flavour, *built_in_profile("argos3"), rvr()}), std::invalid_argument);
   flavour.behaviours = {{.module = Module::FixedProbability, .number = 0, .parameters = {}}};
   EXPECT_THROW(assess({flavour, *built_in_profile("argos3"), rvr()}), std::invalid_argument);
-}
-
-TEST(BrokenFlavour, AProbabilityThatIsNotSetFails) {
-  Flavour flavour = watermelon();
-  flavour.behaviours.clear();
-  flavour.conditions.resize(1);
-  flavour.conditions[0].parameters[0].name = "gamma";  // 0: the middle of 0 to 1, as an integer
-  const Failures failures = failures_of(flavour);
-  EXPECT_THAT(failures.modules, ElementsAre("black_floor"));
-  EXPECT_THAT(failures.notes, HasSubstr("did not fire in "));
 }
 
 }  // namespace

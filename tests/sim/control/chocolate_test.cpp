@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "sim/control/behaviours.h"
@@ -7,6 +5,7 @@
 #include "sim/control/machine_text.h"
 #include "sim/control/readings.h"
 #include "tests/sim/control/fake_senses.h"
+#include "tests/support/checks.h"
 
 // Flavour `chocolate`: thesis eq. 5.1 to 5.4, worked out by hand (thesis facts, sections 6.1, 7).
 
@@ -168,11 +167,11 @@ TEST(MachineTextOfChocolate, ReadsTheEPucksNumbers) {
 }
 
 TEST(MachineTextOfChocolate, HasNoColours) {
-  const auto machine = parse_machine(
-      "--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 6 --p0x0 1 --l0x0 2 --s1 1", chocolate());
-  ASSERT_FALSE(machine);
-  EXPECT_NE(machine.error().message.find("the flavour chocolate has no module 6"),
-            std::string::npos);
+  EXPECT_THAT(
+      why_not(parse_machine("--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 6 --p0x0 1 --l0x0 2 --s1 1",
+                            chocolate()))
+          .message,
+      HasSubstr("the flavour chocolate has no module 6"));
   const Machine colours{{{Stop{}, {{ColorDetection{1, ColorLabel::Red}, 1}}}, {Stop{}, {}}}};
   EXPECT_TRUE(check(colours, chocolate()).has_value());
   EXPECT_TRUE(check(Machine{{{Phototaxis{}, {}}}}, watermelon()).has_value());

@@ -1,52 +1,39 @@
 #include "sim/control/flavour_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "sim/control/controller.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-
 /// The errors of a flavour's file as "file:line:column: sentence".
 std::vector<std::string> complaints(const std::string& text) {
-  std::vector<std::string> lines;
-  const auto flavour = parse_flavour("format = 1\n" + text, "mine.toml");
-  if (flavour) return lines;
-  for (const Error& error : flavour.error())
-    lines.push_back(to_string(error));
-  return lines;
+  return complaints_of(parse_flavour("format = 1\n" + text, "mine.toml"));
 }
 
 const std::string kOnWatermelon = "base = \"watermelon\"\n";
 
 TEST(FlavourFile, EachBuiltInFlavourReadsBackFromItsText) {
   for (const Flavour* flavour : not_empty(all_flavours())) {
-    const auto again = parse_flavour(flavour_text(*flavour), flavour->name + ".toml");
-    ASSERT_TRUE(again.has_value()) << to_string(again.error().front());
-    EXPECT_EQ(*again, *flavour) << flavour->name;
+    const auto again = value_of(parse_flavour(flavour_text(*flavour), flavour->name + ".toml"));
+    EXPECT_EQ(again, *flavour) << flavour->name;
     EXPECT_TRUE(is_built_in(*flavour));
     EXPECT_THAT(std::string(built_in_flavour_text(flavour->name)), HasSubstr("format = 1\n"));
   }
 }
 
 TEST(FlavourFile, AFileHasWhatItsBaseHasAndItsOwn) {
-  const auto mine = parse_flavour(
+  const auto mine = value_of(parse_flavour(
       "format = 1\nbase = \"watermelon\"\nstates = 6\n[neighbours]\nattraction_gain = 2\n"
       "[behaviours]\nstop = { number = 7 }\n"
       "attraction = { number = 1, alpha = { range = [2, 3], token = \"pull\", digits = 4 } }\n",
-      "folder/mine.toml");
-  ASSERT_TRUE(mine.has_value()) << to_string(mine.error().front());
+      "folder/mine.toml"));
   Flavour expected = watermelon();
   expected.name = "mine";
   expected.most_states = 6;
@@ -60,9 +47,9 @@ TEST(FlavourFile, AFileHasWhatItsBaseHasAndItsOwn) {
   ModuleSpec stop = *watermelon().find(Module::Stop);
   stop.number = 7;
   expected.behaviours = {attraction, stop};
-  EXPECT_EQ(*mine, expected);
-  EXPECT_FALSE(is_built_in(*mine));
-  EXPECT_EQ(*parse_flavour(flavour_text(*mine), "mine.toml"), *mine);
+  EXPECT_EQ(mine, expected);
+  EXPECT_FALSE(is_built_in(mine));
+  EXPECT_EQ(*parse_flavour(flavour_text(mine), "mine.toml"), mine);
 }
 
 TEST(FlavourFile, WhatIsWrongIsSaidWithItsPlace) {
@@ -128,9 +115,8 @@ const std::string kColours =
     "message = { number = 3, kind = \"external\" }\n";
 
 TEST(FlavourFile, ModulesThatOnlyOthersHaveAreReadAndWritten) {
-  const auto read = parse_flavour("format = 1\n" + kColours, "colours.toml");
-  ASSERT_TRUE(read.has_value()) << to_string(read.error().front());
-  const ModuleSpec* module = read->find("go_to_color");
+  const auto read = value_of(parse_flavour("format = 1\n" + kColours, "colours.toml"));
+  const ModuleSpec* module = read.find("go_to_color");
   ASSERT_NE(module, nullptr);
   EXPECT_TRUE(is_external(module->module));
   EXPECT_TRUE(is_behaviour(module->module));
@@ -140,8 +126,8 @@ TEST(FlavourFile, ModulesThatOnlyOthersHaveAreReadAndWritten) {
   EXPECT_EQ(module->parameters[0].digits, 2);
   EXPECT_EQ(module->parameters[1].type, ParameterSpec::Type::Integer);
   EXPECT_EQ(module->parameters[1].high, 6);
-  EXPECT_FALSE(is_behaviour(read->find("message")->module));
-  EXPECT_EQ(*parse_flavour(flavour_text(*read), "colours.toml"), *read);
+  EXPECT_FALSE(is_behaviour(read.find("message")->module));
+  EXPECT_EQ(*parse_flavour(flavour_text(read), "colours.toml"), read);
 }
 
 TEST(FlavourFile, TextsOfExternalModulesAreReadAndPrintedAndNeverRun) {
@@ -149,14 +135,13 @@ TEST(FlavourFile, TextsOfExternalModulesAreReadAndPrintedAndNeverRun) {
   const std::string text =
       "--nstates 2 --s0 8 --vel0 0.5 --clr0 3 --n0 1 --n0x0 0 --c0x0 3 --s1 1 --n1 1 --n1x0 0 "
       "--c1x0 0 --p1x0 0.25";
-  const auto controller = parse_controller(text, colours);
-  ASSERT_TRUE(controller.has_value()) << to_string(controller.error());
-  EXPECT_EQ(print_controller(*controller, colours), text);
-  const auto& machine = std::get<Machine>(*controller);
+  const auto controller = value_of(parse_controller(text, colours));
+  EXPECT_EQ(print_controller(controller, colours), text);
+  const auto& machine = std::get<Machine>(controller);
   EXPECT_EQ(machine.states[0].behaviour, (Behaviour(ExternalBehaviour{8, {0.5, 3}})));
   EXPECT_EQ(parameters_of(machine.states[0].behaviour), (std::vector<double>{0.5, 3}));
   EXPECT_EQ(module_of(machine.states[0].transitions[0].condition), external_condition(3));
-  EXPECT_EQ(complaint_about_running(*controller, colours),
+  EXPECT_EQ(complaint_about_running(controller, colours),
             "the module go_to_color of the flavour colours is external: this program can read it, "
             "and only a program of its own can run it");
   const auto own = parse_controller("--nstates 1 --s0 1", colours);
@@ -174,12 +159,11 @@ TEST(FlavourFile, AMachineHasAsManyStatesAsItsFlavourAllows) {
     text += " --s" + own + " 1 --n" + own + " 1 --n" + own + "x0 " + std::to_string(i % 11) +
             " --c" + own + "x0 0 --p" + own + "x0 1";
   }
-  const auto machine = parse_controller(text, colours);
-  ASSERT_TRUE(machine.has_value()) << to_string(machine.error());
-  EXPECT_EQ(print_controller(*machine, colours), text);
+  const auto machine = value_of(parse_controller(text, colours));
+  EXPECT_EQ(print_controller(machine, colours), text);
   EXPECT_THAT(parse_controller(text, watermelon()).error().message,
               HasSubstr("a machine of 12 states; machines of 1 to 4 states are read"));
-  EXPECT_THAT(check(*machine, watermelon())->message, HasSubstr("a machine has 1 to 4 states"));
+  EXPECT_THAT(check(machine, watermelon())->message, HasSubstr("a machine has 1 to 4 states"));
 }
 
 TEST(FlavourFile, WhatIsWrongWithAnExternalModuleIsSaid) {

@@ -1,8 +1,6 @@
 #include "sim/control/flavour.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 #include <optional>
@@ -12,9 +10,6 @@
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 TEST(Flavour, IsFoundByItsName) {
   EXPECT_EQ(find_flavour("watermelon").value(), &watermelon());

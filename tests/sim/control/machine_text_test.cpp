@@ -1,24 +1,19 @@
 #include "sim/control/machine_text.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <stdexcept>
 
 #include "sim/control/controller.h"
 #include "sim/control/flavour.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
 
-using ::testing::HasSubstr;
-
 Machine parsed(std::string_view text) {
-  const Expected<Machine> machine = parse_machine(text, watermelon());
-  if (!machine) throw std::runtime_error(to_string(machine.error()));
-  return *machine;
+  return value_of(parse_machine(text, watermelon()));
 }
 
 TEST(MachineText, ReadsTheExampleOfTheGrammar) {
@@ -34,9 +29,7 @@ TEST(MachineText, HasAMegabyteAtMost) {
   const std::string machine = "--nstates 1 --s0 1";
   const std::string longest = machine + std::string((1U << 20U) - machine.size(), ' ');
   EXPECT_TRUE(parse_controller(longest, watermelon()));
-  const auto longer = parse_controller(longest + " ", watermelon());
-  ASSERT_FALSE(longer);
-  EXPECT_EQ(longer.error().message,
+  EXPECT_EQ(why_not(parse_controller(longest + " ", watermelon())).message,
             "control software has at most 1048576 characters, and this text has 1048577");
 }
 
@@ -168,11 +161,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(ControllerText, NamesTheOptionsBeforeAMachineThatItDoesNotKnow) {
   // As AutoMoDe-private, branch HardwareOptimization, Results/controllers.
-  const auto read =
-      parse_controller("--robots 22 --rabsi 2 --rabar 0.7 --nstates 1 --s0 1", watermelon());
-  ASSERT_FALSE(read);
-  EXPECT_EQ(read.error().where, "token 1, column 1");
-  EXPECT_THAT(read.error().message, HasSubstr("not known here: `--robots`, `--rabsi`, `--rabar`;"));
+  const Error read = why_not(
+      parse_controller("--robots 22 --rabsi 2 --rabar 0.7 --nstates 1 --s0 1", watermelon()));
+  EXPECT_EQ(read.where, "token 1, column 1");
+  EXPECT_THAT(read.message, HasSubstr("not known here: `--robots`, `--rabsi`, `--rabar`;"));
   EXPECT_THAT(parse_controller("--nstates 1 --robots 22 --s0 1", watermelon()).error().message,
               HasSubstr("expected `--s0`, found `--robots`"));
   EXPECT_THAT(parse_controller("--nstates 1 --s0 1 --robots 22", watermelon()).error().message,
@@ -262,9 +254,8 @@ TEST(MachineText, WhatIsPrintedReadsBackToTheSameMachine) {
 
 TEST(MachineText, ALargeIntegerReadsBack) {
   const std::string text = "--nstates 1 --s0 0 --rwm0 100000";
-  const auto machine = parse_machine(text, watermelon());
-  ASSERT_TRUE(machine.has_value());
-  EXPECT_EQ(print_machine(*machine, watermelon()), text);
+  const auto machine = value_of(parse_machine(text, watermelon()));
+  EXPECT_EQ(print_machine(machine, watermelon()), text);
 }
 
 TEST(MachineText, ATextWithAWordLeftOutIsAnError) {

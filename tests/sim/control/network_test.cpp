@@ -1,6 +1,5 @@
 #include "sim/control/network.h"
 
-#include <gmock/gmock.h>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -8,12 +7,12 @@
 #include "sim/control/controller.h"
 #include "sim/control/flavour.h"
 #include "tests/sim/control/fake_senses.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using ::testing::Each;
-using ::testing::HasSubstr;
 
 /// Inputs as a vector of their count.
 std::vector<double> inputs_of(NetworkInputs set, FakeSenses& senses,
@@ -30,7 +29,7 @@ TEST(NetworkInputs, OfNothingAreTheFloorAndTheBias) {
   FakeSenses senses;
   senses.floor = {255, 51, 0};
   const std::vector<double> inputs = inputs_of(NetworkInputs::Rvr, senses);
-  EXPECT_THAT(inputs, ::testing::ElementsAre(0, 0, 0, 0, 1, 0.2, 0, 0, 0, 0, 0, 0, 1));
+  EXPECT_THAT(inputs, ElementsAre(0, 0, 0, 0, 1, 0.2, 0, 0, 0, 0, 0, 0, 1));
 }
 
 TEST(NetworkInputs, ObstaclesAreProjectedOnTheDiagonals) {
@@ -95,7 +94,7 @@ TEST(NetworkInputs, AreAllBetweenZeroAndOne) {
   for (const NetworkInputs set :
        {NetworkInputs::Rvr, NetworkInputs::RvrGray, NetworkInputs::Rm12}) {
     const auto inputs = inputs_of(set, senses, chocolate());
-    EXPECT_THAT(inputs, Each(::testing::AllOf(::testing::Ge(0), ::testing::Le(1))));
+    EXPECT_THAT(inputs, Each(AllOf(::testing::Ge(0), ::testing::Le(1))));
     EXPECT_EQ(inputs.size(), input_names(set).size());
   }
 }
@@ -137,9 +136,8 @@ TEST(NetworkText, ReadsWhatItPrints) {
   network.weights[3] = -1.2345;
   const std::string text = print_network(network, watermelon());
   EXPECT_THAT(text, HasSubstr("--network rvr-gray --weights 0.25,0.25,0.25,-1.2345,"));
-  const auto read = parse_network(text, watermelon());
-  ASSERT_TRUE(read);
-  EXPECT_EQ(*read, network);
+  const auto read = value_of(parse_network(text, watermelon()));
+  EXPECT_EQ(read, network);
 }
 
 TEST(NetworkText, SaysWhatIsWrongAndWhere) {
@@ -211,9 +209,8 @@ TEST(GenomeText, OfAFlatNetworkIsReadInBothOrdersOfItsGenes) {
   for (const bool by_output : {false, true}) {
     Genome genome;
     genome.by_output = by_output;
-    const auto read = parse_controller(genome.text(), chocolate());
-    ASSERT_TRUE(read) << to_string(read.error());
-    EXPECT_EQ(std::get<Network>(*read), wanted);
+    const auto read = value_of(parse_controller(genome.text(), chocolate()));
+    EXPECT_EQ(std::get<Network>(read), wanted);
   }
 }
 
@@ -221,9 +218,8 @@ TEST(GenomeText, ADisabledOrMissingGeneCountsNothing) {
   std::string text = Genome().text();
   text.replace(text.find("3.25 0 1 0 1"), 12, "3.25 0 1 0 0");
   text.erase(text.find(Genome().gene(4, false)), Genome().gene(4, false).size());
-  const auto read = parse_controller(text, chocolate());
-  ASSERT_TRUE(read) << to_string(read.error());
-  const auto& weights = std::get<Network>(*read).weights;
+  const auto read = value_of(parse_controller(text, chocolate()));
+  const auto& weights = std::get<Network>(read).weights;
   EXPECT_EQ(weights[1], 2.25);
   EXPECT_EQ(weights[2], 0);
   EXPECT_EQ(weights[3], 0);

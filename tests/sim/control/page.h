@@ -1,22 +1,16 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 #include <string>
+
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 
 /// A page of docs/, which a test compares with the data that it tells of.
 inline std::string page_text(const std::string& name) {
-  std::ifstream stream(std::string(SWARMSMITH_SOURCE_DIR) + "/docs/" + name);
-  EXPECT_TRUE(stream.good()) << "no page " << name;
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+  return whole_file(SWARMSMITH_SOURCE_DIR "/docs/" + name);
 }
 
 /// A number as a page has it: 0.4, 16000, "none" for infinity.

@@ -1,15 +1,12 @@
 #include "sim/control/tree.h"
 
-#include <gmock/gmock.h>
-
 #include "sim/control/controller.h"
 #include "sim/control/flavour.h"
 #include "tests/sim/control/fake_senses.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::HasSubstr;
 
 /// Stop until the floor is black, then straight on (no obstacle is near) for good.
 Tree stop_then_go() {
@@ -93,13 +90,12 @@ constexpr const char* kPublished =
 
 TEST(TreeText, ReadsAndPrintsTheFormOfThePrograms) {
   for (const char* prefix : {"", "--bt-config "}) {
-    const auto tree = parse_tree(std::string(prefix) + kPublished, chocolate());
-    ASSERT_TRUE(tree) << to_string(tree.error());
-    ASSERT_EQ(tree->subtrees.size(), 3U);
-    EXPECT_EQ(tree->subtrees[0].condition, Condition(FixedProbability{0.16}));
-    EXPECT_EQ(tree->subtrees[0].action, Behaviour(Attraction{3.26}));
-    EXPECT_EQ(tree->subtrees[2].action, Behaviour(Exploration{21}));
-    EXPECT_EQ(print_tree(*tree, chocolate()), kPublished);
+    const auto tree = value_of(parse_tree(std::string(prefix) + kPublished, chocolate()));
+    ASSERT_EQ(tree.subtrees.size(), 3U);
+    EXPECT_EQ(tree.subtrees[0].condition, Condition(FixedProbability{0.16}));
+    EXPECT_EQ(tree.subtrees[0].action, Behaviour(Attraction{3.26}));
+    EXPECT_EQ(tree.subtrees[2].action, Behaviour(Exploration{21}));
+    EXPECT_EQ(print_tree(tree, chocolate()), kPublished);
   }
 }
 
@@ -111,13 +107,11 @@ constexpr const char* kOldForm =
 
 TEST(TreeText, ReadsTheOlderFormAndPrintsTheNewerOne) {
   for (const char* prefix : {"", "--bt-config "}) {
-    const auto tree = parse_tree(std::string(prefix) + kOldForm, chocolate());
-    ASSERT_TRUE(tree) << to_string(tree.error());
-    EXPECT_EQ(print_tree(*tree, chocolate()), kPublished);
+    const auto tree = value_of(parse_tree(std::string(prefix) + kOldForm, chocolate()));
+    EXPECT_EQ(print_tree(tree, chocolate()), kPublished);
   }
-  const auto any = parse_controller(kOldForm, chocolate());
-  ASSERT_TRUE(any) << to_string(any.error());
-  EXPECT_EQ(architecture_of(*any), Architecture::Tree);
+  const auto any = value_of(parse_controller(kOldForm, chocolate()));
+  EXPECT_EQ(architecture_of(any), Architecture::Tree);
 }
 
 TEST(TreeText, OfTheOlderFormSaysWhatIsWrongAndWhere) {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -23,6 +21,7 @@
 #include "sim/files/robot_file.h"
 #include "tests/support/long_runs.h"
 #include "tests/support/not_empty.h"
+#include "tests/support/temporary_folder.h"
 
 // The e-puck against traces of its original program (tests/golden/epuck).
 
@@ -37,9 +36,7 @@ double number_in(const Row& row, const std::string& column) {
 }
 
 std::vector<Row> rows_of(const std::string& name) {
-  std::ifstream in(SWARMSMITH_SOURCE_DIR "/tests/golden/epuck/" + name);
-  if (!in) throw std::runtime_error("no golden file " + name);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = whole_file(SWARMSMITH_TEST_DATA "/epuck/" + name);
   CsvReader reader(text);
   const std::vector<std::string> head = reader.next().value();
   std::vector<Row> rows;

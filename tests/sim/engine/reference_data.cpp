@@ -1,12 +1,11 @@
 #include "tests/sim/engine/reference_data.h"
 
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "sim/mission/instance_csv.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
@@ -20,9 +19,7 @@ T value_of(Expected<T> value) {
 }
 
 std::string text_of(const std::string& file) {
-  std::ifstream in(SWARMSMITH_TEST_DATA "/argos/" + file);
-  if (!in) throw std::runtime_error("no reference file " + file);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return whole_file(SWARMSMITH_TEST_DATA "/argos/" + file);
 }
 
 /// Rows of a comma-separated file without its header. No field of these files is quoted.

@@ -1,15 +1,10 @@
 #include "sim/files/machine_file.h"
 
-#include <gmock/gmock.h>
-
 #include "sim/files/profile_file.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 constexpr const char* kStop = "--nstates 1 --s0 1\n";
 
@@ -28,21 +23,15 @@ MachineHead head_of_a_winner() {
 }
 
 std::vector<std::string> complaints_about(const std::string& text) {
-  std::vector<std::string> said;
-  const auto machines = parse_machine_file(text, "m.fsm");
-  if (machines) return said;
-  for (const Error& error : machines.error())
-    said.push_back(to_string(error));
-  return said;
+  return complaints_of(parse_machine_file(text, "m.fsm"));
 }
 
 TEST(MachineFile, SaysWhatItsMachineWasDesignedFor) {
   const MachineHead head = head_of_a_winner();
-  const auto read = parse_machine_file("# the best\n" + head_text(head) + kStop, "m.fsm");
-  ASSERT_TRUE(read) << to_string(read.error().front());
-  ASSERT_EQ(read->size(), 1U);
-  EXPECT_EQ(read->front().head, head);
-  EXPECT_EQ(read->front().text, "--nstates 1 --s0 1");
+  const auto read = value_of(parse_machine_file("# the best\n" + head_text(head) + kStop, "m.fsm"));
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read.front().head, head);
+  EXPECT_EQ(read.front().text, "--nstates 1 --s0 1");
   EXPECT_THAT(head_text(head), HasSubstr("#: mission = \"grid_exploration\"\n"));
 }
 
@@ -52,9 +41,8 @@ TEST(MachineFile, HasMissionsAndProfilesOfOnesOwnWhole) {
   head.mission->mission.robots = 5;
   head.mission->mission.rule = RobotsOn{};
   head.profile->name = "mine";
-  const auto read = parse_machine_file(head_text(head) + kStop, "m.fsm");
-  ASSERT_TRUE(read) << to_string(read.error().front());
-  EXPECT_EQ(read->front().head, head);
+  const auto read = value_of(parse_machine_file(head_text(head) + kStop, "m.fsm"));
+  EXPECT_EQ(read.front().head, head);
 }
 
 TEST(MachineFile, HasAFlavourOfOnesOwnWhole) {
@@ -63,35 +51,32 @@ TEST(MachineFile, HasAFlavourOfOnesOwnWhole) {
   mine.most_states = 7;
   const MachineHead head{.flavour = mine.name, .own_flavour = kept_flavour(mine)};
   EXPECT_THAT(head_text(head), HasSubstr("#: [flavour]\n#: name = \"mine\"\n"));
-  const auto read = parse_machine_file(head_text(head) + kStop, "m.fsm");
-  ASSERT_TRUE(read.has_value()) << to_string(read.error().front());
-  EXPECT_EQ(read->front().head, head);
+  const auto read = value_of(parse_machine_file(head_text(head) + kStop, "m.fsm"));
+  EXPECT_EQ(read.front().head, head);
 }
 
 TEST(MachineFile, HasABuiltInMissionWholeThatWasChanged) {
   MachineHead head = head_of_a_winner();
   head.mission->mission.cycles = 100;
   EXPECT_THAT(head_text(head), HasSubstr("#: [[mission]]\n"));
-  const auto read = parse_machine_file(head_text(head) + kStop, "m.fsm");
-  ASSERT_TRUE(read) << to_string(read.error().front());
-  EXPECT_EQ(read->front().head, head);
+  const auto read = value_of(parse_machine_file(head_text(head) + kStop, "m.fsm"));
+  EXPECT_EQ(read.front().head, head);
 }
 
 TEST(MachineFile, ANumberOfMachinesEachHaveTheirHead) {
-  const auto read = parse_machine_file(
+  const auto read = value_of(parse_machine_file(
       "#: format = 1\n#: flavour = \"chocolate\"\nfirst: --fsm-config --nstates 1\n  --s0 1\n"
       "# nothing\n\n#: format = 1\n#: flavour = \"watermelon\"\n--nstates 1 --s0 1\n"
       "third --nstates 1 --s0 1\r\n",
-      "m.fsm");
-  ASSERT_TRUE(read) << to_string(read.error().front());
-  ASSERT_EQ(read->size(), 3U);
-  EXPECT_EQ(read->at(0).name, "first");
-  EXPECT_EQ(read->at(0).text, "--fsm-config --nstates 1 --s0 1");
-  EXPECT_EQ(read->at(0).head.flavour, "chocolate");
-  EXPECT_EQ(read->at(1).head.flavour, "watermelon");
-  EXPECT_EQ(read->at(2).head.flavour, "");
-  EXPECT_EQ(read->at(2).name, "third");
-  EXPECT_EQ(read->at(2).place, "m.fsm:10");
+      "m.fsm"));
+  ASSERT_EQ(read.size(), 3U);
+  EXPECT_EQ(read.at(0).name, "first");
+  EXPECT_EQ(read.at(0).text, "--fsm-config --nstates 1 --s0 1");
+  EXPECT_EQ(read.at(0).head.flavour, "chocolate");
+  EXPECT_EQ(read.at(1).head.flavour, "watermelon");
+  EXPECT_EQ(read.at(2).head.flavour, "");
+  EXPECT_EQ(read.at(2).name, "third");
+  EXPECT_EQ(read.at(2).place, "m.fsm:10");
 }
 
 TEST(MachineFile, NamesThePlaceOfWhatIsWrong) {
@@ -108,7 +93,7 @@ TEST(MachineFile, NamesThePlaceOfWhatIsWrong) {
                           "--nroot, --rootnode, --bt-config, --network, genomestart"));
   EXPECT_THAT(complaints_about("--s0 1\n"), ElementsAre(HasSubstr("m.fsm:1: ")));
   EXPECT_THAT(complaints_about("# nothing\n"), ElementsAre("m.fsm: the file holds no machine"));
-  EXPECT_THAT(complaints_about(kStop), testing::IsEmpty());
+  EXPECT_THAT(complaints_about(kStop), IsEmpty());
 }
 
 TEST(MachineFile, ANameHasNoOptions) {
@@ -126,7 +111,7 @@ TEST(MachineFile, ANameHasNoOptions) {
   EXPECT_THAT(
       complaints_about("automode_main -n -c x.argos --seed 3 --fsm-config " + std::string(kStop)),
       ElementsAre(HasSubstr("`-n`, `-c`, `--seed`")));
-  EXPECT_THAT(complaints_about("hA1 - the best, of 10: " + std::string(kStop)), testing::IsEmpty());
+  EXPECT_THAT(complaints_about("hA1 - the best, of 10: " + std::string(kStop)), IsEmpty());
 }
 
 /// NEAT's form (tests/sim/control/network_test.cpp); too short to be a controller of ours.
@@ -135,16 +120,15 @@ constexpr const char* kGenome =
     "node 1 1 1 3\nnode 2 1 0 2\ngene 1 1 2 -0.5 0 1 -0.5 1\ngenomeend 2\n";
 
 TEST(MachineFile, TakesGenomesAsTheyAre) {
-  const auto read = parse_machine_file(kGenome + std::string(kStop) + kGenome, "gen_0");
-  ASSERT_TRUE(read) << to_string(read.error().front());
-  ASSERT_EQ(read->size(), 3U);
-  EXPECT_EQ(read->at(0).text,
+  const auto read = value_of(parse_machine_file(kGenome + std::string(kStop) + kGenome, "gen_0"));
+  ASSERT_EQ(read.size(), 3U);
+  EXPECT_EQ(read.at(0).text,
             "genomestart 2 trait 1 0.1 0 0 0 0 0 0 0 node 1 1 1 3 node 2 1 0 2 gene 1 1 2 -0.5 0 1 "
             "-0.5 1 genomeend 2");
-  EXPECT_EQ(read->at(0).place, "gen_0:2");
-  EXPECT_EQ(read->at(0).name, "");
-  EXPECT_EQ(read->at(1).text, "--nstates 1 --s0 1");
-  EXPECT_EQ(read->at(2).place, "gen_0:10");
+  EXPECT_EQ(read.at(0).place, "gen_0:2");
+  EXPECT_EQ(read.at(0).name, "");
+  EXPECT_EQ(read.at(1).text, "--nstates 1 --s0 1");
+  EXPECT_EQ(read.at(2).place, "gen_0:10");
 }
 
 TEST(MachineFile, SaysOnceWhatAWrongFileSeemsToBe) {

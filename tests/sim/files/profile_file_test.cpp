@@ -1,24 +1,15 @@
 #include "sim/files/profile_file.h"
 
-#include <gmock/gmock.h>
-
 #include "base/text/document.h"
 #include "tests/sim/every_noise.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-
 /// The errors of a profile file as "file:line:column: sentence".
 std::vector<std::string> complaints(const std::string& text) {
-  std::vector<std::string> lines;
-  const auto profile = parse_profile("format = 1\n" + text, "mine.toml");
-  if (profile) return lines;
-  for (const Error& error : profile.error())
-    lines.push_back(to_string(error));
-  return lines;
+  return complaints_of(parse_profile("format = 1\n" + text, "mine.toml"));
 }
 
 TEST(Profile, TheDefaultHasTheNoiseOfTheThesis) {
@@ -133,25 +124,23 @@ TEST(ProfileText, LeavesOutWhatCameLaterWhereItIsIdeal) {
 }
 
 TEST(ProfileFile, HasTheNameOfItsFileAndIdealDevicesUnlessItSaysOtherwise) {
-  const auto profile = parse_profile("format = 1\n[ground_color]\nsd = 2.5\n", "in/my_rvr.toml");
-  ASSERT_TRUE(profile);
-  EXPECT_EQ(*profile, (Profile{.name = "my_rvr", .ground_color = {.sd = 2.5}}));
+  const auto profile =
+      value_of(parse_profile("format = 1\n[ground_color]\nsd = 2.5\n", "in/my_rvr.toml"));
+  EXPECT_EQ(profile, (Profile{.name = "my_rvr", .ground_color = {.sd = 2.5}}));
 }
 
 TEST(ProfileFile, NeedsANameThatStoresTake) {
-  const auto profile = parse_profile("format = 1\n", "my rvr.toml");
-  ASSERT_FALSE(profile);
-  EXPECT_THAT(profile.error()[0].message, HasSubstr("this is \"my rvr\""));
+  EXPECT_THAT(complaint_of(parse_profile("format = 1\n", "my rvr.toml")),
+              HasSubstr("this is \"my rvr\""));
 }
 
 TEST(ProfileFile, MayBeginWithABuiltInOne) {
-  const auto profile =
-      parse_profile("format = 1\nbase = \"pseudo-reality\"\n[timing]\ndelays = []\n", "x.toml");
-  ASSERT_TRUE(profile);
+  const auto profile = value_of(
+      parse_profile("format = 1\nbase = \"pseudo-reality\"\n[timing]\ndelays = []\n", "x.toml"));
   Profile wanted = built_in_profile("pseudo-reality").value();
   wanted.name = "x";
   wanted.timing.delays.clear();
-  EXPECT_EQ(*profile, wanted);
+  EXPECT_EQ(profile, wanted);
 }
 
 TEST(ProfileFile, GetsASentenceWithLineAndColumnForEachMistake) {
@@ -195,7 +184,7 @@ TEST(ProfileFile, GetsASentenceWithLineAndColumnForEachMistake) {
       {"contacts = \"bullet\"\n", "mine.toml:2:12: `contacts` cannot be \"bullet\""},
   };
   for (const auto& [text, complaint] : mistakes) {
-    EXPECT_THAT(complaints(text), testing::Contains(HasSubstr(complaint))) << text;
+    EXPECT_THAT(complaints(text), Contains(HasSubstr(complaint))) << text;
   }
   EXPECT_THAT(complaints("[timing]\ndelays = [ { time = \"100 ms\", probability = 0.25 },\n"
                          "{ time = \"0 ms\", probability = 0.5 } ]\n"),

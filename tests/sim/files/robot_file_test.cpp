@@ -1,7 +1,5 @@
 #include "sim/files/robot_file.h"
 
-#include <gmock/gmock.h>
-
 #include <array>
 #include <fstream>
 #include <initializer_list>
@@ -12,25 +10,18 @@
 #include "sim/engine/fitting.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::Optional;
 
 /// The errors of a robot file as "file:line:column: sentence".
 std::vector<std::string> complaints(const std::string& text) {
-  std::vector<std::string> lines;
-  const auto robot = parse_robot("format = 1\n" + text, "mine.toml");
-  if (robot) return lines;
-  for (const Error& error : robot.error())
-    lines.push_back(to_string(error));
-  return lines;
+  return complaints_of(parse_robot("format = 1\n" + text, "mine.toml"));
 }
 
 Robot built_in(const std::string& name) {
@@ -45,9 +36,8 @@ TEST(RobotFile, BasesThatFormACircleAreRefused) {
   const TemporaryFolder folder;
   std::ofstream(folder / "a.toml") << "format = 1\nbase = \"b.toml\"\n";
   std::ofstream(folder / "b.toml") << "format = 1\nbase = \"a.toml\"\n";
-  const auto robot = find_robot("a.toml", folder / "");
-  ASSERT_FALSE(robot);
-  EXPECT_THAT(to_string(robot.error().front()), HasSubstr("16 files deep, or form a circle"));
+  EXPECT_THAT(complaint_of(find_robot("a.toml", folder / "")),
+              HasSubstr("16 files deep, or form a circle"));
   std::ofstream(folder / "b.toml") << "format = 1\nbase = \"epuck\"\n";
   EXPECT_TRUE(find_robot("a.toml", folder / ""));
 }
@@ -199,12 +189,10 @@ TEST(RobotFile, AMissionWithARobotReadsBackToTheSameBits) {
         "diameter = 0.2\nmass = 1\n"}) {
     const std::string text = std::string("format = 1\nname = \"x\"\nrobots = 2\n") + robot +
                              "[score]\nkind = \"coverage\"\n";
-    const auto mission = parse_mission(text, "x.toml");
-    ASSERT_TRUE(mission) << to_string(mission.error().front());
-    EXPECT_NE(mission->mission.robot, rvr());
-    const auto again = parse_mission(mission_text(*mission), "x.toml");
-    ASSERT_TRUE(again) << to_string(again.error().front());
-    EXPECT_EQ(*again, *mission);
+    const auto mission = value_of(parse_mission(text, "x.toml"));
+    EXPECT_NE(mission.mission.robot, rvr());
+    const auto again = value_of(parse_mission(mission_text(mission), "x.toml"));
+    EXPECT_EQ(again, mission);
   }
 }
 
@@ -297,25 +285,23 @@ TEST(RobotFile, ANetworkOfSingleSensorsNeedsAllOfThem) {
 
 TEST(RobotFile, TheExampleRobotFitsTheFlavoursOfDistances) {
   const auto robot =
-      find_robot(SWARMSMITH_SOURCE_DIR "/examples/missions/robots/turtlebot4.toml", "");
-  ASSERT_TRUE(robot) << to_string(robot.error().front());
-  EXPECT_EQ(robot->proximity.rays_deg.size(), 7U);
-  EXPECT_EQ(misfit(watermelon(), *robot), std::nullopt);
+      value_of(find_robot(SWARMSMITH_SOURCE_DIR "/examples/missions/robots/turtlebot4.toml", ""));
+  EXPECT_EQ(robot.proximity.rays_deg.size(), 7U);
+  EXPECT_EQ(misfit(watermelon(), robot), std::nullopt);
 }
 
 TEST(ProfileRanges, AreReadAndWritten) {
-  const auto profile = parse_profile(
-      "format = 1\n[treads]\nsd = [0.01, 0.1]\nway = { run = [0.9, 1] }\n", "mine.toml");
-  ASSERT_TRUE(profile) << to_string(profile.error().front());
-  EXPECT_THAT(profile->ranges, ElementsAre(FieldRange{"treads.sd", 0.01, 0.1, false},
-                                           FieldRange{"treads.way", 0.9, 1, true}));
+  const auto profile = value_of(parse_profile(
+      "format = 1\n[treads]\nsd = [0.01, 0.1]\nway = { run = [0.9, 1] }\n", "mine.toml"));
+  EXPECT_THAT(profile.ranges, ElementsAre(FieldRange{"treads.sd", 0.01, 0.1, false},
+                                          FieldRange{"treads.way", 0.9, 1, true}));
   std::string text = "format = 1\n";
-  for (Section& section : profile_sections(*profile, "profile")) {
+  for (Section& section : profile_sections(profile, "profile")) {
     if (section.header != "[profile.treads]") continue;
     section.header = "[treads]";
     text += text_of({section});
   }
-  EXPECT_EQ(parse_profile(text, "mine.toml"), *profile);
+  EXPECT_EQ(parse_profile(text, "mine.toml"), profile);
 }
 
 TEST(ProfileRanges, AreDrawnForRobotAndRunOrForTheRun) {

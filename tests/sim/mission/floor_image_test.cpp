@@ -1,14 +1,12 @@
 #include "sim/mission/floor_image.h"
 
-#include <gmock/gmock.h>
 #include <png.h>
 
 #include "sim/mission/arena.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 /// The bytes of a PNG file with these pixels of four channels.
 std::string png_of(int width, int height, const std::vector<std::uint8_t>& rgba) {

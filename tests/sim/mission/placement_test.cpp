@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-
 #include <array>
 #include <cmath>
 
@@ -7,11 +5,10 @@
 #include "base/overloaded.h"
 #include "sim/mission/mission.h"
 #include "sim/mission/polygon.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 /// Points of a solid's border and inside, in the arena: enough to see that two solids overlap or
 /// that one reaches through a wall, without the code under test.

@@ -1,15 +1,12 @@
 #include "sim/mission/polygon.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include "base/math.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 const std::vector<Point> kSquare = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
 /// An L of three unit squares.
@@ -73,9 +70,7 @@ TEST(RegularPolygon, IsCircumscribedAboutItsCircle) {
 
 TEST(Sides, ThatDoNotMeetNameTheGap) {
   const std::vector<Side> open = {{{0, 0}, {1, 0}}, {{1, 0}, {0, 1}}, {{0, 1}, {0, 0.25}}};
-  const auto corners = corners_of(open);
-  ASSERT_FALSE(corners);
-  EXPECT_EQ(corners.error().message,
+  EXPECT_EQ(why_not(corners_of(open)).message,
             "not closed: wall 3 ends at (0, 0.25), wall 1 begins at (0, 0), a gap of 0.25 m");
 }
 

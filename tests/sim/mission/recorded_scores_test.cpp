@@ -1,4 +1,3 @@
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -6,6 +5,7 @@
 #include "sim/mission/instance_csv.h"
 #include "sim/mission/trajectory.h"
 #include "tests/sim/reference_run.h"
+#include "tests/support/checks.h"
 
 // Scores of the recorded runs against those that the original simulator printed for them
 // (tests/golden/argos/README.md).
@@ -71,9 +71,8 @@ TEST(RecordedScores, AllReferenceInstancesAreValid) {
   for (const char* name : {"aggregation", "grid_exploration", "color_selection"}) {
     const Mission mission = built_in_mission(name).value();
     for (int seed = 1; seed <= 100; ++seed) {
-      const Expected<Instance> instance = instance_of(mission, seed, given);
-      ASSERT_TRUE(instance.has_value()) << to_string(instance.error());
-      EXPECT_EQ(instance->patches.size(), mission.shuffled.places.size());
+      const auto instance = value_of(instance_of(mission, seed, given));
+      EXPECT_EQ(instance.patches.size(), mission.shuffled.places.size());
     }
   }
 }

@@ -1,9 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "tests/sim/mission/score_support.h"
+#include "tests/support/checks.h"
 #include "tests/support/score_rules.h"
 
 // What holds for every kind in the list, at the end and summed.
@@ -39,9 +38,8 @@ TEST_P(EveryKind, StartsAtZeroAndIsCopied) {
 }
 
 TEST_P(EveryKind, SaysItsNameAndIsFoundByIt) {
-  const auto found = score_of_kind(kind_of(GetParam()));
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->index(), GetParam().index());
+  const auto found = value_of(score_of_kind(kind_of(GetParam())));
+  EXPECT_EQ(found.index(), GetParam().index());
   EXPECT_FALSE(fault_of(GetParam()));
   EXPECT_FALSE(score_of_kind("external"));
 }

@@ -1,7 +1,5 @@
 #include "sim/mission/score.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "sim/mission/mission.h"
 #include "tests/sim/mission/score_support.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -232,9 +231,8 @@ TEST(Foraging, LetsNoRobotDeliverForAnother) {
 }
 
 TEST(Foraging, NeedsTwoColors) {
-  const auto fault = fault_of(Foraging{.nest = {1, 2, 3}, .source = {1, 2, 3}});
-  ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->where, "source");
+  const auto fault = value_of(fault_of(Foraging{.nest = {1, 2, 3}, .source = {1, 2, 3}}));
+  EXPECT_EQ(fault.where, "source");
 }
 
 // --- Formulas ---------------------------------------------------------------------------------
@@ -293,12 +291,12 @@ TEST(FormulaScore, SaysWhatIsWrongAndWhere) {
       "the score's `value` cannot be worked out: at character 5: there is no `distance`; "
       "names are x, y, t, speed, nearest, from_centre, black, gray, white, red, green, blue, "
       "yellow; functions are abs, sqrt, min, max, floor, hypot, exp, log, pow, sin, cos, atan2");
-  EXPECT_THAT(message("blak"), testing::HasSubstr("did you mean \"black\"?"));
-  EXPECT_THAT(message("-spread"), testing::EndsWith("; with of = \"swarm\" it could be"));
-  EXPECT_THAT(message("nearest", "swarm"), testing::EndsWith("with of = \"robots\" it could be"));
-  EXPECT_THAT(message("x)"), testing::EndsWith("at character 2: `)` has no place here"));
-  EXPECT_THAT(message("atan2(x)"), testing::EndsWith("`atan2` wants more values"));
-  EXPECT_THAT(message(""), testing::EndsWith("it is empty"));
+  EXPECT_THAT(message("blak"), HasSubstr("did you mean \"black\"?"));
+  EXPECT_THAT(message("-spread"), EndsWith("; with of = \"swarm\" it could be"));
+  EXPECT_THAT(message("nearest", "swarm"), EndsWith("with of = \"robots\" it could be"));
+  EXPECT_THAT(message("x)"), EndsWith("at character 2: `)` has no place here"));
+  EXPECT_THAT(message("atan2(x)"), EndsWith("`atan2` wants more values"));
+  EXPECT_THAT(message(""), EndsWith("it is empty"));
   EXPECT_EQ(
       message("x ^ 2"),
       "the score's `value` cannot be worked out: at character 3: there is no `^`; write x * x, "

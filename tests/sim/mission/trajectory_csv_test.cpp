@@ -1,15 +1,12 @@
 #include "sim/mission/trajectory_csv.h"
 
-#include <gmock/gmock.h>
-
 #include <limits>
 
 #include "base/rng.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 /// A table of all instants, with a column more than a reader wants.
 std::string table_of(const RecordedTrajectory& recorded) {
@@ -52,19 +49,17 @@ TEST(TrajectoryCsv, WritesInfinitiesAsWords) {
 TEST(TrajectoryCsv, ReadsBackTheSameBits) {
   const RecordedTrajectory recorded{.starts = random_poses(4),
                                     .trajectory = {.robots = 4, .poses = random_poses(200)}};
-  const auto read = parse_trajectory_csv(table_of(recorded));
-  ASSERT_TRUE(read) << to_string(read.error());
-  EXPECT_EQ(*read, recorded);
+  const auto read = value_of(parse_trajectory_csv(table_of(recorded)));
+  EXPECT_EQ(read, recorded);
 }
 
 TEST(TrajectoryCsv, FindsItsColumnsWhereverTheyStandAndNeedsNoStart) {
-  const auto read = parse_trajectory_csv(
-      "x,y,tag,theta,robot,cycle\n"
-      "1,2,a,3,0,1\n"
-      "4,5,b,-1,1,1\n");
-  ASSERT_TRUE(read) << to_string(read.error());
-  EXPECT_TRUE(read->starts.empty());
-  EXPECT_EQ(read->trajectory, (Trajectory{.robots = 2, .poses = {{1, 2, 3}, {4, 5, -1}}}));
+  const auto read =
+      value_of(parse_trajectory_csv("x,y,tag,theta,robot,cycle\n"
+                                    "1,2,a,3,0,1\n"
+                                    "4,5,b,-1,1,1\n"));
+  EXPECT_TRUE(read.starts.empty());
+  EXPECT_EQ(read.trajectory, (Trajectory{.robots = 2, .poses = {{1, 2, 3}, {4, 5, -1}}}));
 }
 
 TEST(TrajectoryCsv, ATableWithoutRowsIsAnEmptyTrajectory) {
@@ -97,9 +92,8 @@ TEST(TrajectoryCsv, SaysWhatIsWrongAndWhere) {
        "line 4: cycle 1 has 1 robot, the one before it 2"},
   };
   for (const Wrong& wrong : cases) {
-    const auto read = parse_trajectory_csv(wrong.text);
-    ASSERT_FALSE(read) << wrong.text;
-    EXPECT_THAT(to_string(read.error()), HasSubstr(wrong.sentence));
+    EXPECT_THAT(complaint_of(parse_trajectory_csv(wrong.text)), HasSubstr(wrong.sentence))
+        << wrong.text;
   }
 }
 

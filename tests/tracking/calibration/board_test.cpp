@@ -1,22 +1,18 @@
 #include "tracking/calibration/board.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 
+#include "tests/support/checks.h"
 #include "tracking/calibration/internal/charuco.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::HasSubstr;
-
 TEST(BoardTest, WordsReadBack) {
   for (const char* word : {"charuco:11x8:0.03:0.022:5x5_100", "chessboard:10x7:0.03",
                            "charuco:5x7:0.04:0.03:apriltag_36h11"}) {
-    const auto board = parse_board(word);
-    ASSERT_TRUE(board) << to_string(board.error());
-    EXPECT_EQ(board_text(*board), word);
+    const auto board = value_of(parse_board(word));
+    EXPECT_EQ(board_text(board), word);
   }
 }
 

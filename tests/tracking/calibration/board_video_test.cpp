@@ -1,11 +1,10 @@
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "tests/support/checks.h"
 #include "tests/support/film/boards.h"
 #include "tests/support/film/virtual_camera.h"
 #include "tests/support/temporary_folder.h"
@@ -25,8 +24,7 @@ void film_boards(const std::string& file, const CameraModel& camera) {
   options.codec = "mjpeg";
   options.frame_rate = 10;
   options.quality = 95;
-  auto writer = VideoWriter::open(file, camera.size, options);
-  ASSERT_TRUE(writer) << to_string(writer.error());
+  auto writer = value_of(VideoWriter::open(file, camera.size, options));
   const auto lens = std::make_shared<const film::LensMap>(film::lens_map_of(camera));
   int frame = 0;
   for (const film::FilmedBoard& board :
@@ -40,9 +38,9 @@ void film_boards(const std::string& file, const CameraModel& camera) {
     shooting.blur_px = 1.6;
     const ColorImage blurred = film::VirtualCamera(scene, shooting, lens, 1).picture(0, frame);
     for (int i = 0; i < kFramesOfAView; ++i, ++frame)
-      ASSERT_TRUE(writer->write(i == kSharp ? sharp : blurred, frame / 10.0));
+      ASSERT_TRUE(writer.write(i == kSharp ? sharp : blurred, frame / 10.0));
   }
-  ASSERT_TRUE(writer->finish());
+  ASSERT_TRUE(writer.finish());
 }
 
 TEST(BoardVideoTest, SharpViewsThatDifferArePickedFromAVideo) {

@@ -1,14 +1,10 @@
-#include <gmock/gmock.h>
-
+#include "tests/support/checks.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/lens_reach.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 CameraCalibration camera() {
   CameraCalibration calibration;

@@ -1,8 +1,7 @@
 #include "tracking/calibration/board_watch.h"
 
-#include <gmock/gmock.h>
-
 #include "synthetic.h"
+#include "tests/support/checks.h"
 #include "tests/support/film/boards.h"
 #include "tests/support/film/virtual_camera.h"
 
@@ -95,25 +94,23 @@ TEST(FindBoardTest, CornersOfMarkerBoardsAreWhereTheyAre) {
 TEST(FindBoardTest, APartOfAMarkerBoardIsEnough) {
   const Board board = *parse_board("charuco:11x8:0.03:0.022:5x5_100");
   const Shot shot = shot_of(board, {60, 60}, 0.35, 0.2);
-  const auto sight = found_in(shot, board);
-  ASSERT_TRUE(sight);
-  EXPECT_LT(sight->view.seen.size(), 60U);
-  for (std::size_t i = 0; i < sight->view.seen.size(); ++i) {
-    const ImagePoint truth = film::image_of_board(shot.board, half_camera(), sight->view.board[i]);
-    EXPECT_NEAR(sight->view.seen[i].u, truth.u, 0.4);
-    EXPECT_NEAR(sight->view.seen[i].v, truth.v, 0.4);
+  const auto sight = value_of(found_in(shot, board));
+  EXPECT_LT(sight.view.seen.size(), 60U);
+  for (std::size_t i = 0; i < sight.view.seen.size(); ++i) {
+    const ImagePoint truth = film::image_of_board(shot.board, half_camera(), sight.view.board[i]);
+    EXPECT_NEAR(sight.view.seen[i].u, truth.u, 0.4);
+    EXPECT_NEAR(sight.view.seen[i].v, truth.v, 0.4);
   }
 }
 
 TEST(FindBoardTest, AChessboardIsFoundWholeWithoutAShiftOfHalfAPixel) {
   const Board board = *parse_board("chessboard:10x7:0.03");
   const Shot shot = shot_of(board, {480, 270}, 0.45, 0.4);
-  const auto sight = found_in(shot, board);
-  ASSERT_TRUE(sight);
-  ASSERT_EQ(sight->view.seen.size(), 70U);
+  const auto sight = value_of(found_in(shot, board));
+  ASSERT_EQ(sight.view.seen.size(), 70U);
   // Which end is the first cannot be told; the corners as a set can.
   ImagePoint mean;
-  for (const ImagePoint& seen : sight->view.seen) {
+  for (const ImagePoint& seen : sight.view.seen) {
     double nearest = 1e9;
     ImagePoint off;
     for (const Point& corner : corners_of(board)) {

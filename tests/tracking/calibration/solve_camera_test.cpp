@@ -3,21 +3,15 @@
 #include <limits>
 #include <numbers>
 
-#include <gmock/gmock.h>
-
 #include <opencv2/calib3d.hpp>
 
 #include "synthetic.h"
+#include "tests/support/checks.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/rig/calibration_limits.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 /// What a script finds that calls OpenCV as its tutorial does.
 CameraModel solved_by_defaults(const std::vector<BoardView>& views, ImageSize size) {
@@ -42,9 +36,7 @@ CameraModel solved_by_defaults(const std::vector<BoardView>& views, ImageSize si
 }
 
 CameraSolution solved(const std::vector<BoardView>& views, const CameraModel& camera) {
-  auto solution = solve_camera(views, camera.size, camera.lens);
-  EXPECT_TRUE(solution) << to_string(solution.error());
-  return solution.value_or(CameraSolution{});
+  return value_of(solve_camera(views, camera.size, camera.lens));
 }
 
 std::string faults(const CameraCalibration& calibration) {
@@ -146,8 +138,7 @@ TEST(SolveCameraTest, EachLimitRefusesWithItsValue) {
   }
   const CameraSolution half = solved(left, camera);
   EXPECT_THAT(faults(half.calibration), Not(HasSubstr("of the frame")));
-  EXPECT_THAT(cautions_of(half.calibration),
-              testing::Contains(HasSubstr("the arena must lie within it")));
+  EXPECT_THAT(cautions_of(half.calibration), Contains(HasSubstr("the arena must lie within it")));
   // A file that does not say where its corners were needs all of the frame.
   CameraCalibration old = half.calibration;
   old.hull.clear();
@@ -176,9 +167,7 @@ TEST(SolveCameraTest, ViewsWithoutCornersAreNoViews) {
   const CameraModel camera = wide_camera();
   std::vector<BoardView> views = held_boards(camera, 2, 1);
   views.emplace_back();
-  const auto solution = solve_camera(views, camera.size, Lens::Pinhole);
-  ASSERT_FALSE(solution);
-  EXPECT_THAT(to_string(solution.error()),
+  EXPECT_THAT(complaint_of(solve_camera(views, camera.size, Lens::Pinhole)),
               AllOf(HasSubstr("E_CALIB_QUALITY"), HasSubstr("2 views show at least 8 corners")));
 }
 

@@ -2,18 +2,12 @@
 
 #include <numbers>
 
-#include <gmock/gmock.h>
-
 #include "synthetic.h"
+#include "tests/support/checks.h"
 #include "tracking/rig/calibration_limits.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 constexpr double kDegree = std::numbers::pi / 180;
 const TagOffset kOffset{0.062, -0.038, 0.35};
@@ -62,20 +56,18 @@ std::string faults(const std::vector<TagSample>& samples) {
 
 TEST(SolveOffsetTest, IsExactOnExactSamplesAlsoWhileTheCentreCreeps) {
   const auto solved =
-      solve_offset(spin({.noise_m = 0, .heading_noise_rad = 0, .drift_m_s = 0.004}));
-  ASSERT_TRUE(solved);
-  EXPECT_LT(error_of_axis(*solved), 1e-9);
-  EXPECT_NEAR(solved->drift_m_s, 0.004 * std::hypot(1, 0.3), 1e-9);
-  EXPECT_NEAR(solved->turned_rad, 4 * std::numbers::pi, 1e-9);
+      value_of(solve_offset(spin({.noise_m = 0, .heading_noise_rad = 0, .drift_m_s = 0.004})));
+  EXPECT_LT(error_of_axis(solved), 1e-9);
+  EXPECT_NEAR(solved.drift_m_s, 0.004 * std::hypot(1, 0.3), 1e-9);
+  EXPECT_NEAR(solved.turned_rad, 4 * std::numbers::pi, 1e-9);
 }
 
 /// What detection in rendered videos shows: 0.1 to 0.2 mm and 0.1 degrees.
 TEST(SolveOffsetTest, TypicalNoiseLeaves014Millimetres) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-    const auto solved = solve_offset(spin({.turns = 1.1}, seed));
-    ASSERT_TRUE(solved);
-    EXPECT_LT(error_of_axis(*solved), 0.00014);
-    EXPECT_THAT(faults_of(*solved), IsEmpty());
+    const auto solved = value_of(solve_offset(spin({.turns = 1.1}, seed)));
+    EXPECT_LT(error_of_axis(solved), 0.00014);
+    EXPECT_THAT(faults_of(solved), IsEmpty());
   }
 }
 
@@ -87,23 +79,22 @@ TEST(SolveOffsetTest, TwoMillimetresOfNoiseLeaveHalfAMillimetre) {
   constexpr int kRuns = 200;
   int within = 0;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
-    const auto solved = solve_offset(spin({.noise_m = 0.002 / std::numbers::sqrt2}, seed));
-    ASSERT_TRUE(solved);
-    EXPECT_LT(solved->sigma_x_m, 0.0005);
-    squares += std::pow(solved->offset.x_m - kOffset.x_m, 2);
-    sigma += solved->sigma_x_m;
-    within += error_of_axis(*solved) <= 0.0005 ? 1 : 0;
+    const auto solved =
+        value_of(solve_offset(spin({.noise_m = 0.002 / std::numbers::sqrt2}, seed)));
+    EXPECT_LT(solved.sigma_x_m, 0.0005);
+    squares += std::pow(solved.offset.x_m - kOffset.x_m, 2);
+    sigma += solved.sigma_x_m;
+    within += error_of_axis(solved) <= 0.0005 ? 1 : 0;
   }
   EXPECT_GE(within, kRuns * 99 / 100);
   EXPECT_NEAR(std::sqrt(squares / kRuns) / (sigma / kRuns), 1, 0.15);
 }
 
 TEST(SolveOffsetTest, OutliersAreTrimmed) {
-  const auto solved = solve_offset(spin({.outliers = 5}));
-  ASSERT_TRUE(solved);
-  EXPECT_LT(error_of_axis(*solved), 0.00014);
-  EXPECT_LE(solved->samples, 121 - 5);
-  EXPECT_GE(solved->samples, 121 - 8);
+  const auto solved = value_of(solve_offset(spin({.outliers = 5})));
+  EXPECT_LT(error_of_axis(solved), 0.00014);
+  EXPECT_LE(solved.samples, 121 - 5);
+  EXPECT_GE(solved.samples, 121 - 8);
 }
 
 TEST(SolveOffsetTest, EachLimitRefusesWithItsValue) {
@@ -147,19 +138,16 @@ std::vector<TagSample> straight(double length_m, double turn_rad, bool reverse) 
 
 TEST(SolveYawTest, ComesFromAStraightRunForwardsAndBackwards) {
   for (const bool reverse : {false, true}) {
-    const auto travel = solve_yaw(straight(0.8, 0, reverse), kOffset, reverse);
-    ASSERT_TRUE(travel) << to_string(travel.error());
-    EXPECT_NEAR(wrap_angle(travel->yaw_rad - kOffset.yaw_rad), 0, 0.1 * kDegree);
-    EXPECT_NEAR(travel->length_m, 0.8, 0.002);
+    const auto travel = value_of(solve_yaw(straight(0.8, 0, reverse), kOffset, reverse));
+    EXPECT_NEAR(wrap_angle(travel.yaw_rad - kOffset.yaw_rad), 0, 0.1 * kDegree);
+    EXPECT_NEAR(travel.length_m, 0.8, 0.002);
     // The wrong word turns it by half a turn.
-    const auto wrong = solve_yaw(straight(0.8, 0, reverse), kOffset, !reverse);
-    ASSERT_TRUE(wrong);
-    EXPECT_GT(std::abs(wrap_angle(wrong->yaw_rad - kOffset.yaw_rad)), 3.1);
+    const auto wrong = value_of(solve_yaw(straight(0.8, 0, reverse), kOffset, !reverse));
+    EXPECT_GT(std::abs(wrap_angle(wrong.yaw_rad - kOffset.yaw_rad)), 3.1);
   }
   // A slight curve is none the worse.
-  const auto curve = solve_yaw(straight(0.8, 0.2, false), kOffset, false);
-  ASSERT_TRUE(curve);
-  EXPECT_NEAR(wrap_angle(curve->yaw_rad - kOffset.yaw_rad), 0, 0.2 * kDegree);
+  const auto curve = value_of(solve_yaw(straight(0.8, 0.2, false), kOffset, false));
+  EXPECT_NEAR(wrap_angle(curve.yaw_rad - kOffset.yaw_rad), 0, 0.2 * kDegree);
 }
 
 TEST(SolveYawTest, ShortAndCrookedRunsAreRefused) {

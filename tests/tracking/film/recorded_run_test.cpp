@@ -1,12 +1,11 @@
 #include "tests/support/film/recorded_run.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith::film {
 namespace {
@@ -24,18 +23,17 @@ TEST(RecordedRunTest, IsTheRunThatTheSimulatorScores) {
     wish.profile = "pseudo-reality";
     wish.seed = 11;
     wish.seconds = 30;
-    const auto run = record_run(wish, kDesigns);
-    ASSERT_TRUE(run) << to_string(run.error());
+    const auto run = value_of(record_run(wish, kDesigns));
     // The robots' way beyond the end is not part of what is scored, and does not change it.
     const Flavour& flavour = **find_flavour(wish.flavour);
     const Machine machine = *parse_machine(kMachine, flavour);
     const auto profile = *find_profile(wish.profile, ".");
     const SimulationResult result =
-        simulate({machine, flavour, profile, run->mission, run->instance, wish.seed});
-    EXPECT_EQ(run->score, result.score) << mission;
-    EXPECT_EQ(run->trajectory.instants(), 300);
-    EXPECT_GT(run->poses.front().size(), 301U);
-    EXPECT_EQ(run->poses[1][300], run->trajectory.at(299)[1]);
+        simulate({machine, flavour, profile, run.mission, run.instance, wish.seed});
+    EXPECT_EQ(run.score, result.score) << mission;
+    EXPECT_EQ(run.trajectory.instants(), 300);
+    EXPECT_GT(run.poses.front().size(), 301U);
+    EXPECT_EQ(run.poses[1][300], run.trajectory.at(299)[1]);
   }
 }
 
@@ -52,16 +50,15 @@ TEST(RecordedRunTest, DistanceToAnotherScoreIsThatToTheBorder) {
   RunWish wish;
   wish.machine = kMachine;
   wish.seconds = 1;
-  auto run = record_run(wish, kDesigns);
-  ASSERT_TRUE(run);
+  auto run = value_of(record_run(wish, kDesigns));
   // The spot of the mission is the disc that its arena shows.
-  const Disc spot = std::get<Disc>(run->mission.arena.patches.front().shape);
+  const Disc spot = std::get<Disc>(run.mission.arena.patches.front().shape);
   const double inside = spot.radius_m - 0.0102;
-  run->trajectory.poses[static_cast<std::size_t>(3 * 9)] = {spot.centre.x + inside, spot.centre.y,
-                                                            0};
-  EXPECT_NEAR(distance_to_change(*run, 0), 0.0102, 0.0006);
-  run->trajectory.poses[static_cast<std::size_t>(3 * 9)] = {spot.centre.x, spot.centre.y, 0};
-  EXPECT_EQ(distance_to_change(*run, 0), 0.05);
+  run.trajectory.poses[static_cast<std::size_t>(3 * 9)] = {spot.centre.x + inside, spot.centre.y,
+                                                           0};
+  EXPECT_NEAR(distance_to_change(run, 0), 0.0102, 0.0006);
+  run.trajectory.poses[static_cast<std::size_t>(3 * 9)] = {spot.centre.x, spot.centre.y, 0};
+  EXPECT_EQ(distance_to_change(run, 0), 0.05);
 }
 
 }  // namespace

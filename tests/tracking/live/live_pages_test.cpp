@@ -1,8 +1,8 @@
 #include "tracking/live/live_pages.h"
+#include "tests/support/checks.h"
 #include "tests/support/eventually.h"
 
 #include <arpa/inet.h>
-#include <gmock/gmock.h>
 #include <httplib.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -15,9 +15,6 @@
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::StartsWith;
 
 int port_of(const LivePages& pages) {
   const std::string address = pages.address();

@@ -1,19 +1,14 @@
 #include "tracking/live/live_tracker.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/checks.h"
 #include "tests/support/film/virtual_camera.h"
 #include "tests/support/overhead_camera.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::Contains;
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr ImageSize kSize{960, 540};
 constexpr TagOffset kOffset{0.03, -0.05, 0.14};

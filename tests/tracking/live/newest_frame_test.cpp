@@ -1,7 +1,6 @@
 #include "tracking/live/newest_frame.h"
+#include "tests/support/checks.h"
 #include "tests/support/eventually.h"
-
-#include <gmock/gmock.h>
 
 namespace swarmsmith {
 namespace {
@@ -71,18 +70,16 @@ TEST(NewestFrameTest, WhoIsSlowGetsTheNewestAndTheCountOfTheOthers) {
   });
   EXPECT_FALSE(newest.take(milliseconds(1)).has_value());
   source.allow(1);
-  const auto first = newest.take(seconds(10));
-  ASSERT_TRUE(first.has_value());
-  EXPECT_EQ(first->number, 0);
+  const auto first = value_of(newest.take(seconds(10)));
+  EXPECT_EQ(first.number, 0);
   EXPECT_EQ(newest.dropped(), 0);
   source.allow(5);
   ASSERT_TRUE(eventually([&] { return done >= 4; }));
-  const auto late = newest.take(seconds(10));
-  ASSERT_TRUE(late.has_value());
-  EXPECT_EQ(late->number, 4);
-  EXPECT_EQ(late->gray.at(100), 4);
+  const auto late = value_of(newest.take(seconds(10)));
+  EXPECT_EQ(late.number, 4);
+  EXPECT_EQ(late.gray.at(100), 4);
   EXPECT_EQ(newest.dropped(), 3);
-  EXPECT_FALSE(late->color.has_value());
+  EXPECT_FALSE(late.color.has_value());
   EXPECT_FALSE(newest.has_ended());
   source.close();
   EXPECT_FALSE(newest.take(seconds(10)).has_value());
@@ -95,10 +92,9 @@ TEST(NewestFrameTest, HasColoursWhileTheyAreWanted) {
   NewestFrame newest(source, {});
   newest.wants_color(true);
   source.allow(1);
-  const auto frame = newest.take(seconds(10));
-  ASSERT_TRUE(frame.has_value());
-  ASSERT_TRUE(frame->color.has_value());
-  EXPECT_EQ(frame->color->width, 64);
+  const auto frame = value_of(newest.take(seconds(10)));
+  ASSERT_TRUE(frame.color.has_value());
+  EXPECT_EQ(frame.color->width, 64);
   source.close();
 }
 

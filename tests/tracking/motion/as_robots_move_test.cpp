@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <array>
@@ -7,6 +6,7 @@
 
 #include "base/math.h"
 #include "base/rng.h"
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 #include "tracking/motion/internal/travel.h"
 #include "tracking/motion/resampling.h"
@@ -14,8 +14,6 @@
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr double kDegree = kPi / 180;
 
@@ -208,9 +206,8 @@ TEST(TravelTest, ATagOverTheCentreMovesNothingWhenItIsTurned) {
   SeenRun seen = seen_run(Driven({}, {}), seeing);
   turn_tag(seen, 0, 90 * kDegree);
   const TrackedRun run = seen.track().value();
-  EXPECT_THAT(errors_of(run), testing::IsEmpty());
-  ASSERT_NE(find_issue(run, IssueCode::HeadingOff), nullptr);
-  EXPECT_THAT(find_issue(run, IssueCode::HeadingOff)->text, HasSubstr("positions are right"));
+  EXPECT_THAT(errors_of(run), IsEmpty());
+  EXPECT_THAT(issue_of(run, IssueCode::HeadingOff).text, HasSubstr("positions are right"));
 }
 
 TEST(TravelTest, ARobotThatDrivesBackwardsIsNoTurnedTag) {
@@ -228,8 +225,7 @@ TEST(TravelTest, AFilmThatRunsBackwardsIsToldFromRobotsThatDo) {
   const Driven driven({.grip_m_s2 = 0.75}, {});
   const Truth reversed = [&](int robot, double time_s) { return driven(robot, 60 - time_s); };
   const TrackedRun run = seen_run(reversed, usual()).track().value();
-  ASSERT_NE(find_issue(run, IssueCode::Timestamps), nullptr);
-  EXPECT_THAT(find_issue(run, IssueCode::Timestamps)->text, HasSubstr("runs backwards"));
+  EXPECT_THAT(issue_of(run, IssueCode::Timestamps).text, HasSubstr("runs backwards"));
   const Driven backwards({.backwards = true, .grip_m_s2 = 0.75}, {});
   const TrackedRun right = seen_run(backwards, usual()).track().value();
   EXPECT_TRUE(right.issues.empty()) << right.issues.front().text;
@@ -277,7 +273,7 @@ TEST(TravelTest, SkidsAreNoPlaceOfTheTag) {
             fmt::format("grip {}, {} frames/s, {} {}", grip, rate, off.x, off.y);
         EXPECT_EQ(issue != nullptr, is_off) << what << " " << (issue ? issue->text : "");
         EXPECT_EQ(run.issues.empty(), !is_off) << what;
-        EXPECT_THAT(errors_of(run), testing::IsEmpty());
+        EXPECT_THAT(errors_of(run), IsEmpty());
         const Check* check = find_check(run, "tag against the treads", "rvr1");
         ASSERT_TRUE(check->value) << what << " " << check->reason;
         EXPECT_NEAR(*check->value, is_off ? 30 : 0, 7) << what;

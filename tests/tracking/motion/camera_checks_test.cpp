@@ -1,21 +1,17 @@
-#include <gmock/gmock.h>
-
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 #include "tracking/motion/resampling.h"
 
 namespace swarmsmith {
 namespace {
 
-using testing::HasSubstr;
-
 TEST(CoverageTest, ATruncatedVideoKeepsItsTrajectory) {
   SeenRun seen = seen_run(on_circle, {.cycles = 1200});
   seen.cut(43.01, 1000);
   const TrackedRun run = seen.track().value();
   EXPECT_NEAR(run.covered_s, 43, 1e-6);
-  const Issue* issue = find_issue(run, IssueCode::VideoTruncated);
-  ASSERT_NE(issue, nullptr);
-  EXPECT_THAT(issue->text, HasSubstr("covered 43.00 of 120 s"));
+  const Issue& issue = issue_of(run, IssueCode::VideoTruncated);
+  EXPECT_THAT(issue.text, HasSubstr("covered 43.00 of 120 s"));
   EXPECT_EQ(run.issues.size(), 1U);
   ASSERT_EQ(run.trajectory.instants(), 1200);
   EXPECT_EQ(run.trajectory.at(1199)[0], run.trajectory.at(430)[0]);
@@ -47,8 +43,7 @@ TEST(CoverageTest, AVideoThatBeginsLateOrElsewhereIsSaid) {
 
 TEST(FrameRateTest, BelowTenIsAnErrorAndTenIsNot) {
   const TrackedRun slow = seen_run(on_circle, {.cycles = 200, .frame_rate = 8}).track().value();
-  ASSERT_NE(find_issue(slow, IssueCode::FrameRate), nullptr);
-  EXPECT_THAT(find_issue(slow, IssueCode::FrameRate)->text, HasSubstr("8.0 frames/s"));
+  EXPECT_THAT(issue_of(slow, IssueCode::FrameRate).text, HasSubstr("8.0 frames/s"));
   const TrackedRun ten = seen_run(on_circle, {.cycles = 200, .frame_rate = 10}).track().value();
   EXPECT_TRUE(ten.issues.empty()) << ten.issues.front().text;
 }
@@ -127,11 +122,10 @@ TEST(CameraMovedTest, IsSeenByTheFloorTags) {
     push_camera(seen, 11, 1.5);
     if (!calibrated) forget_calibrated_tags(seen);
     const TrackedRun run = seen.track().value();
-    const Issue* issue = find_issue(run, IssueCode::CameraMoved);
-    ASSERT_NE(issue, nullptr);
-    EXPECT_NEAR(issue->from.value(), 11, 1e-9);
-    EXPECT_THAT(issue->text, HasSubstr("moved between 10.0 s and 11.0 s"));
-    EXPECT_THAT(issue->text, HasSubstr("most 1.5 px at 11.0 s"));
+    const Issue& issue = issue_of(run, IssueCode::CameraMoved);
+    EXPECT_NEAR(issue.from.value(), 11, 1e-9);
+    EXPECT_THAT(issue.text, HasSubstr("moved between 10.0 s and 11.0 s"));
+    EXPECT_THAT(issue.text, HasSubstr("most 1.5 px at 11.0 s"));
   }
 }
 
@@ -156,9 +150,8 @@ TEST(CameraMovedTest, CannotBeToldWithoutFloorTags) {
   SeenRun seen = seen_run(on_circle, {.cycles = 200});
   cover_references(seen, 100);
   const TrackedRun run = seen.track().value();
-  const Issue* issue = find_issue(run, IssueCode::CameraUnchecked);
-  ASSERT_NE(issue, nullptr);
-  EXPECT_THAT(issue->text, HasSubstr("camera camera0 saw none of its floor tags in the run"));
+  const Issue& issue = issue_of(run, IssueCode::CameraUnchecked);
+  EXPECT_THAT(issue.text, HasSubstr("camera camera0 saw none of its floor tags in the run"));
   EXPECT_EQ(run.issues.size(), 1U);
 }
 
@@ -166,8 +159,7 @@ TEST(CameraMovedTest, OfOneFloorTagTellsOnlyThatItMoved) {
   SeenRun still = seen_run(on_circle, {.cycles = 200});
   cover_references(still, 101);
   const TrackedRun run = still.track().value();
-  ASSERT_NE(find_issue(run, IssueCode::CameraUnchecked), nullptr);
-  EXPECT_THAT(find_issue(run, IssueCode::CameraUnchecked)->text,
+  EXPECT_THAT(issue_of(run, IssueCode::CameraUnchecked).text,
               HasSubstr("saw only one of its floor tags in the run"));
   EXPECT_EQ(find_issue(run, IssueCode::CameraMoved), nullptr);
   SeenRun pushed = seen_run(on_circle, {.cycles = 200});
@@ -221,9 +213,8 @@ TEST(CameraMovedTest, IsAskedForAtTheEndAsWell) {
   SeenRun seen = seen_run(on_circle, {.cycles = 300});
   cover_references(seen, 100, 15);
   const TrackedRun run = seen.track().value();
-  const Issue* issue = find_issue(run, IssueCode::CameraUnchecked);
-  ASSERT_NE(issue, nullptr);
-  EXPECT_THAT(issue->text, HasSubstr("saw none of its floor tags after 15.0 s"));
+  const Issue& issue = issue_of(run, IssueCode::CameraUnchecked);
+  EXPECT_THAT(issue.text, HasSubstr("saw none of its floor tags after 15.0 s"));
   // Some seconds behind somebody's back are none.
   SeenRun short_while = seen_run(on_circle, {.cycles = 300});
   cover_references(short_while, 100, 23);
@@ -234,8 +225,7 @@ TEST(PlaceTest, OfAnEditedFileIsNoPlace) {
   SeenRun seen = seen_run(on_circle, {.cycles = 200});
   seen.rig.places.begin()->second.place.translation.x += 0.002;
   const TrackedRun run = seen.track().value();
-  ASSERT_NE(find_issue(run, IssueCode::Extrinsics), nullptr);
-  EXPECT_THAT(find_issue(run, IssueCode::Extrinsics)->text, HasSubstr("was the file edited?"));
+  EXPECT_THAT(issue_of(run, IssueCode::Extrinsics).text, HasSubstr("was the file edited?"));
 }
 
 TEST(PlaceTest, IsDoubtfulWhenTheSurveyHasChanged) {
@@ -243,8 +233,7 @@ TEST(PlaceTest, IsDoubtfulWhenTheSurveyHasChanged) {
   seen.rig.references[2].pose.x += 0.05;
   seen.rig.references[4].pose.theta += 0.01;
   const TrackedRun run = seen.track().value();
-  ASSERT_NE(find_issue(run, IssueCode::SurveyChanged), nullptr);
-  EXPECT_THAT(find_issue(run, IssueCode::SurveyChanged)->text,
+  EXPECT_THAT(issue_of(run, IssueCode::SurveyChanged).text,
               HasSubstr("102 by 50.00 mm, 104 by 0.00 mm"));
   EXPECT_EQ(run.issues.size(), 1U);
 }

@@ -1,11 +1,8 @@
-#include <gmock/gmock.h>
-
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr Seeing kFilm{.cycles = 100, .frame_rate = 15};
 

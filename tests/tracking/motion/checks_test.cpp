@@ -1,14 +1,12 @@
-#include <gmock/gmock.h>
-
 #include <set>
 
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 
 namespace swarmsmith {
 namespace {
 
 using Outcome = Check::Outcome;
-using testing::IsEmpty;
 
 std::vector<std::string> of(const TrackedRun& run, Outcome outcome) {
   std::vector<std::string> names;
@@ -42,13 +40,13 @@ TEST(ChecksTest, OfACleanRunPassAndSayWhatWasNotAsked) {
   expect_sound(run, "clean");
   EXPECT_THAT(of(run, Outcome::Failed), IsEmpty());
   EXPECT_THAT(of(run, Outcome::Warned), IsEmpty());
-  EXPECT_THAT(of(run, Outcome::NotRun),
-              testing::ElementsAre("length of the film, camera0", "cameras agree, rvr1",
-                                   "cameras agree, rvr2", "cameras agree, rvr3",
-                                   "reach of the lens calibration, camera0",
-                                   // They drive on one and the same circle all the time.
-                                   "tag against the treads, rvr1", "tag against the treads, rvr2",
-                                   "tag against the treads, rvr3", "direction of time, "));
+  EXPECT_THAT(
+      of(run, Outcome::NotRun),
+      ElementsAre("length of the film, camera0", "cameras agree, rvr1", "cameras agree, rvr2",
+                  "cameras agree, rvr3", "reach of the lens calibration, camera0",
+                  // They drive on one and the same circle all the time.
+                  "tag against the treads, rvr1", "tag against the treads, rvr2",
+                  "tag against the treads, rvr3", "direction of time, "));
   // Each robot and the camera are asked all that there is to ask.
   for (const char* robot : {"rvr1", "rvr2", "rvr3"}) {
     const auto asked = std::ranges::count(run.checks, robot, &Check::subject);

@@ -1,15 +1,12 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 #include "tracking/motion/internal/clock_checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr Seeing kFilm{.cycles = 300, .frame_rate = 15, .noise_px = 0.05};
 
@@ -202,8 +199,7 @@ TEST(ClockStepTest, FramesThatAreLostWhileCountingAddUp) {
     sighting.frame = number[frame];
   }
   const TrackedRun run = seen.track().value();
-  ASSERT_NE(find_issue(run, IssueCode::ClockStep), nullptr);
-  EXPECT_THAT(find_issue(run, IssueCode::ClockStep)->text, HasSubstr("lost"));
+  EXPECT_THAT(issue_of(run, IssueCode::ClockStep).text, HasSubstr("lost"));
 }
 
 TEST(OrderTest, PicturesInAnotherOrderAreNoFilm) {

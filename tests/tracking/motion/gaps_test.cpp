@@ -1,15 +1,12 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 
 #include "base/math.h"
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 #include "tracking/motion/resampling.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 /// A run of 60 s in which one tag was hidden.
 TrackedRun with_gap(double from_s, double to_s, bool scored_at_the_end = false) {
@@ -42,12 +39,11 @@ TEST(GapsTest, UpToASecondAreMarked) {
 
 TEST(GapsTest, LongerOnesAreErrorsAndHoldTheLastPose) {
   const TrackedRun run = with_gap(20.02, 22.02);
-  const Issue* issue = find_issue(run, IssueCode::Gap);
-  ASSERT_NE(issue, nullptr);
-  EXPECT_EQ(issue->robot, "rvr2");
-  EXPECT_NEAR(issue->from.value(), 20, 0.04);
-  EXPECT_NEAR(issue->to.value(), 22.03, 0.04);
-  EXPECT_THAT(issue->text, HasSubstr("rvr2 (tag 2) was not seen from 20.00 s to 22.03 s"));
+  const Issue& issue = issue_of(run, IssueCode::Gap);
+  EXPECT_EQ(issue.robot, "rvr2");
+  EXPECT_NEAR(issue.from.value(), 20, 0.04);
+  EXPECT_NEAR(issue.to.value(), 22.03, 0.04);
+  EXPECT_THAT(issue.text, HasSubstr("rvr2 (tag 2) was not seen from 20.00 s to 22.03 s"));
   EXPECT_EQ(count_of(run, CycleKind::Missing), 20);
   EXPECT_EQ(run.issues.size(), 1U);
   // Instants 20.1 s and 22.0 s.
@@ -146,9 +142,8 @@ TEST(HandPointTest, BridgesAGapAndIsMarked) {
   }
   const TrackedRun run = seen.track().value();
   EXPECT_EQ(find_issue(run, IssueCode::Gap), nullptr);
-  const Issue* issue = find_issue(run, IssueCode::ByHand);
-  ASSERT_NE(issue, nullptr);
-  EXPECT_THAT(issue->text, HasSubstr("3 times from 10.40 s to 11.20 s (A. Person)"));
+  const Issue& issue = issue_of(run, IssueCode::ByHand);
+  EXPECT_THAT(issue.text, HasSubstr("3 times from 10.40 s to 11.20 s (A. Person)"));
   for (int cycle = 101; cycle <= 114; ++cycle) {
     const auto at = static_cast<std::size_t>(cycle - 1);
     EXPECT_EQ(run.robots[1].cycles[at], CycleKind::Interpolated) << cycle;

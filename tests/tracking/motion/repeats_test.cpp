@@ -1,17 +1,14 @@
 #include "tracking/motion/repeats.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <map>
 
 #include "base/rng.h"
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 /// Robots that drive in circles and stand from `until_s` on, each from its own time.
 Truth that_stop(double until_s, double apart_s = 0, int of = 3) {
@@ -79,8 +76,7 @@ TEST(RepeatsTest, ASlowCameraIsNotMadeFasterByHolding) {
   SeenRun seen = seen_run(on_circle, kFilm);
   hold(seen, [](std::int64_t frame) { return frame / 2 * 2; });
   const TrackedRun run = seen.track().value();
-  ASSERT_NE(find_issue(run, IssueCode::FrameRate), nullptr);
-  EXPECT_THAT(find_issue(run, IssueCode::FrameRate)->text, HasSubstr("7.5 frames/s"));
+  EXPECT_THAT(issue_of(run, IssueCode::FrameRate).text, HasSubstr("7.5 frames/s"));
 }
 
 TEST(RepeatsTest, ARecorderThatHangsToTheEndCoversNoMore) {
@@ -88,10 +84,8 @@ TEST(RepeatsTest, ARecorderThatHangsToTheEndCoversNoMore) {
     SeenRun seen = seen_run(that_stop(1000, 0, moving), kFilm);
     hold(seen, [](std::int64_t frame) { return std::min<std::int64_t>(frame, 300); });
     const TrackedRun run = seen.track().value();
-    ASSERT_NE(find_issue(run, IssueCode::VideoTruncated), nullptr);
-    EXPECT_THAT(find_issue(run, IssueCode::VideoTruncated)->text, HasSubstr("hung"));
-    ASSERT_NE(find_issue(run, IssueCode::PicturesRepeated), nullptr);
-    EXPECT_NEAR(find_issue(run, IssueCode::PicturesRepeated)->from.value(), 19.5, 0.01);
+    EXPECT_THAT(issue_of(run, IssueCode::VideoTruncated).text, HasSubstr("hung"));
+    EXPECT_NEAR(issue_of(run, IssueCode::PicturesRepeated).from.value(), 19.5, 0.01);
   }
 }
 
@@ -102,10 +96,8 @@ TEST(RepeatsTest, AFewPicturesOverAndOverAreARecorderThatHangsToo) {
       return frame < 300 ? frame : 300 - pictures + (frame - 300) % pictures;
     });
     const TrackedRun run = seen.track().value();
-    ASSERT_NE(find_issue(run, IssueCode::VideoTruncated), nullptr);
-    EXPECT_THAT(find_issue(run, IssueCode::VideoTruncated)->text, HasSubstr("hung"));
-    ASSERT_NE(find_issue(run, IssueCode::PicturesRepeated), nullptr);
-    EXPECT_THAT(find_issue(run, IssueCode::PicturesRepeated)->text, HasSubstr("over and over"));
+    EXPECT_THAT(issue_of(run, IssueCode::VideoTruncated).text, HasSubstr("hung"));
+    EXPECT_THAT(issue_of(run, IssueCode::PicturesRepeated).text, HasSubstr("over and over"));
   }
 }
 
@@ -167,8 +159,7 @@ TEST(RepeatsTest, OneRobotThatStopsAfterAFullStepIsDoubtful) {
   SeenRun seen = seen_run(that_stop(1000, 0, 1), kFilm);
   hold(seen, [](std::int64_t frame) { return std::min<std::int64_t>(frame, 300); });
   const TrackedRun run = seen.track().value();
-  ASSERT_NE(find_issue(run, IssueCode::PicturesRepeated), nullptr);
-  EXPECT_THAT(find_issue(run, IssueCode::PicturesRepeated)->text, HasSubstr("nothing that moves"));
+  EXPECT_THAT(issue_of(run, IssueCode::PicturesRepeated).text, HasSubstr("nothing that moves"));
 }
 
 }  // namespace

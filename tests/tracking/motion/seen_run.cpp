@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "base/math.h"
@@ -177,6 +178,14 @@ double rms_error(const TrackedRun& run, const Truth& truth) {
   for (const double error : errors_of(run, truth))
     squares += error * error;
   return std::sqrt(squares / static_cast<double>(run.trajectory.poses.size()));
+}
+
+const Issue& issue_of(const TrackedRun& run, IssueCode code) {
+  if (const Issue* issue = find_issue(run, code)) return *issue;
+  std::string texts = "no issue of this kind among:";
+  for (const Issue& issue : run.issues)
+    texts += "\n" + issue.text;
+  throw std::runtime_error(texts);
 }
 
 const Check* find_check(const TrackedRun& run, std::string_view name, std::string_view subject) {

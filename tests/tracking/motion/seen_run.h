@@ -54,6 +54,8 @@ double rms_error(const TrackedRun& run, const Truth& truth = on_circle);
 
 /// The first of a kind, or nothing.
 const Issue* find_issue(const TrackedRun& run, IssueCode code);
+/// The first of a kind, which has to be there.
+const Issue& issue_of(const TrackedRun& run, IssueCode code);
 const Check* find_check(const TrackedRun& run, std::string_view name, std::string_view subject);
 
 }  // namespace swarmsmith

@@ -1,15 +1,12 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 #include "tracking/motion/resampling.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 const Seeing kFirst{.cycles = 300, .noise_px = 0.1, .seed = 1};
 /// Another rate, another clock, more noise.
@@ -52,10 +49,9 @@ TEST(SeveralCamerasTest, DisagreementIsSaidWithNumbers) {
   // A clock 60 ms off is 18 mm at 0.3 m/s.
   seen.options.span.starts_s[1] += 0.06;
   const TrackedRun run = seen.track().value();
-  const Issue* issue = find_issue(run, IssueCode::CamerasDisagree);
-  ASSERT_NE(issue, nullptr);
-  EXPECT_EQ(issue->robot, "rvr1");
-  EXPECT_THAT(issue->text, HasSubstr("more than 10 mm apart in "));
+  const Issue& issue = issue_of(run, IssueCode::CamerasDisagree);
+  EXPECT_EQ(issue.robot, "rvr1");
+  EXPECT_THAT(issue.text, HasSubstr("more than 10 mm apart in "));
 }
 
 TEST(SeveralCamerasTest, DoNotDependOnTheOrderOfSightings) {

@@ -1,17 +1,14 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
 #include "base/rng.h"
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 #include "tracking/motion/resampling.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr std::string_view kAgreement = "tags of one robot agree";
 constexpr Seeing kFirst{.cycles = 300, .noise_px = 0.2, .seed = 1};
@@ -85,8 +82,7 @@ TEST(SeveralTagsTest, HiddenTagLosesNothing) {
   // Both at once is a gap as ever.
   seen.hide(21, 8, 10);
   const TrackedRun gap = seen.track().value();
-  ASSERT_NE(find_issue(gap, IssueCode::Gap), nullptr);
-  EXPECT_THAT(find_issue(gap, IssueCode::Gap)->text, HasSubstr("rvr1 (tags 1, 21) was not seen"));
+  EXPECT_THAT(issue_of(gap, IssueCode::Gap).text, HasSubstr("rvr1 (tags 1, 21) was not seen"));
 }
 
 TEST(SeveralTagsTest, OneThatIsNeverSeenTakesNothingAndIsSaid) {
@@ -140,8 +136,7 @@ TEST(SeveralTagsTest, TurnedTagIsNamed) {
     return offset;
   };
   const TrackedRun run = two_tags(turned).track().value();
-  ASSERT_NE(find_issue(run, IssueCode::TagsDisagree), nullptr);
-  EXPECT_THAT(find_issue(run, IssueCode::TagsDisagree)->text, HasSubstr("mm) and 8."));
+  EXPECT_THAT(issue_of(run, IssueCode::TagsDisagree).text, HasSubstr("mm) and 8."));
 }
 
 TEST(SeveralTagsTest, NeverTogetherIsDoubtful) {
@@ -149,8 +144,7 @@ TEST(SeveralTagsTest, NeverTogetherIsDoubtful) {
   seen.hide(1, 15, 100);
   seen.hide(21, -10, 15);
   const TrackedRun run = seen.track().value();
-  ASSERT_NE(find_issue(run, IssueCode::TagPlaceDoubtful), nullptr);
-  EXPECT_EQ(find_issue(run, IssueCode::TagPlaceDoubtful)->robot, "rvr1");
+  EXPECT_EQ(issue_of(run, IssueCode::TagPlaceDoubtful).robot, "rvr1");
   EXPECT_EQ(std::ranges::count(run.robots[0].cycles, CycleKind::Measured), 300);
 }
 

@@ -1,16 +1,13 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 #include "tracking/motion/track_run.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr double kDegree = kPi / 180;
 
@@ -27,12 +24,11 @@ TEST(TagSizeTest, AllHeightsTenCentimetresTooLowAreRefusedWithBothPossibilities)
   SeenRun seen = seen_run(on_circle, usual());
   lower_heights(seen, 0.1);
   const TrackedRun run = seen.track().value();
-  const Issue* issue = find_issue(run, IssueCode::TagSize);
-  ASSERT_NE(issue, nullptr);
+  const Issue& issue = issue_of(run, IssueCode::TagSize);
   EXPECT_EQ(std::ranges::count(run.issues, IssueCode::TagSize, &Issue::code), 3);
-  EXPECT_THAT(issue->text, HasSubstr("either its `height` is 0.200 m and not 0.100 m"));
-  EXPECT_THAT(issue->text, HasSubstr("or its `edge` is 0.1040 m"));
-  EXPECT_THAT(issue->text, HasSubstr("all robots are off alike"));
+  EXPECT_THAT(issue.text, HasSubstr("either its `height` is 0.200 m and not 0.100 m"));
+  EXPECT_THAT(issue.text, HasSubstr("or its `edge` is 0.1040 m"));
+  EXPECT_THAT(issue.text, HasSubstr("all robots are off alike"));
   EXPECT_EQ(find_check(run, "size of the tag", "rvr1")->outcome, Check::Outcome::Failed);
 }
 
@@ -40,8 +36,7 @@ TEST(TagSizeTest, AHeightThatIsThreeCentimetresOffIsDoubtfulAndMakesBordersWide)
   SeenRun seen = seen_run(on_circle, usual());
   seen.rig.robots[1].height_m -= 0.04;
   const TrackedRun run = seen.track().value();
-  ASSERT_NE(find_issue(run, IssueCode::TagSizeDoubtful), nullptr);
-  EXPECT_EQ(find_issue(run, IssueCode::TagSizeDoubtful)->robot, "rvr2");
+  EXPECT_EQ(issue_of(run, IssueCode::TagSizeDoubtful).robot, "rvr2");
   EXPECT_THAT(find_issue(run, IssueCode::TagSizeDoubtful)->text, HasSubstr("on this robot"));
   EXPECT_EQ(run.issues.size(), 1U);
   // Half a metre from the point below the camera, 1.6 %.
@@ -92,8 +87,7 @@ TEST(TagSizeTest, TwoCamerasTellAHeightFromAnEdge) {
     is_height ? robot.height_m -= 0.1 : robot.edge_m /= 1.04;
     const TrackedRun run = seen.track().value();
     const IssueCode code = is_height ? IssueCode::TagSize : IssueCode::TagSizeDoubtful;
-    ASSERT_NE(find_issue(run, code), nullptr);
-    EXPECT_THAT(find_issue(run, code)->text, HasSubstr("as two cameras show"));
+    EXPECT_THAT(issue_of(run, code).text, HasSubstr("as two cameras show"));
     EXPECT_THAT(find_issue(run, code)->text,
                 HasSubstr(is_height ? "its `height` is" : "its `edge` is"));
   }

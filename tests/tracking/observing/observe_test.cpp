@@ -1,15 +1,12 @@
 #include "tracking/observing/observe.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 
+#include "tests/support/checks.h"
 #include "tests/tracking/detection/painted_tags.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
@@ -88,28 +85,27 @@ TEST(ObserveTest, GivesSightingsOfRobotsAndMediansOfFloorTags) {
   MemorySource source(moving(12));
   CameraSetup camera;
   camera.name = "ceiling";
-  const auto seen = observed(source, camera);
-  ASSERT_TRUE(seen.has_value()) << to_string(seen.error());
-  EXPECT_EQ(seen->record.camera, "ceiling");
-  EXPECT_EQ(seen->record.file, "run.mp4");
-  EXPECT_EQ(seen->record.sha256, "ab12");
-  EXPECT_EQ(seen->record.size, (ImageSize{kWidth, kHeight}));
-  EXPECT_EQ(seen->record.frames, 12);
-  EXPECT_EQ(seen->record.frame_times.size(), 12U);
-  EXPECT_EQ(seen->record.time_source, TimeSource::Container);
-  EXPECT_TRUE(seen->issues.empty());
-  ASSERT_EQ(seen->sightings.size(), 12U);
+  const auto seen = value_of(observed(source, camera));
+  EXPECT_EQ(seen.record.camera, "ceiling");
+  EXPECT_EQ(seen.record.file, "run.mp4");
+  EXPECT_EQ(seen.record.sha256, "ab12");
+  EXPECT_EQ(seen.record.size, (ImageSize{kWidth, kHeight}));
+  EXPECT_EQ(seen.record.frames, 12);
+  EXPECT_EQ(seen.record.frame_times.size(), 12U);
+  EXPECT_EQ(seen.record.time_source, TimeSource::Container);
+  EXPECT_TRUE(seen.issues.empty());
+  ASSERT_EQ(seen.sightings.size(), 12U);
   for (int i = 0; i < 12; ++i) {
-    const Sighting& each = seen->sightings[static_cast<std::size_t>(i)];
+    const Sighting& each = seen.sightings[static_cast<std::size_t>(i)];
     EXPECT_EQ(each.frame, i);
     EXPECT_EQ(each.tag, 1);
     EXPECT_NEAR(each.time_s, 12 + 0.1 * i, 1e-12);
     EXPECT_NEAR(middle_of(each.corners).u, 60 + 8.0 * i, 0.2);
   }
-  ASSERT_EQ(seen->record.references.size(), 2U) << "one a second";
-  EXPECT_EQ(seen->record.references[0].tag, 100);
-  EXPECT_GE(seen->record.references[0].frames, 4);
-  EXPECT_NEAR(middle_of(seen->record.references[0].corners).u, 250, 0.05);
+  ASSERT_EQ(seen.record.references.size(), 2U) << "one a second";
+  EXPECT_EQ(seen.record.references[0].tag, 100);
+  EXPECT_GE(seen.record.references[0].frames, 4);
+  EXPECT_NEAR(middle_of(seen.record.references[0].corners).u, 250, 0.05);
 }
 
 TEST(ObserveTest, SaysThatPicturesAreMirrored) {
@@ -150,11 +146,10 @@ TEST(ObserveTest, NamesATagThatWasPrintedMirrored) {
     shots.push_back({picture, 12 + 0.1 * i});
   }
   MemorySource source(std::move(shots));
-  const auto seen = observed(source);
-  ASSERT_TRUE(seen) << to_string(seen.error());
-  ASSERT_EQ(seen->issues.size(), 1U);
-  EXPECT_EQ(seen->issues[0].code, IssueCode::FilmOdd);
-  EXPECT_THAT(seen->issues[0].text, HasSubstr("tag 1 is its mirror image"));
+  const auto seen = value_of(observed(source));
+  ASSERT_EQ(seen.issues.size(), 1U);
+  EXPECT_EQ(seen.issues[0].code, IssueCode::FilmOdd);
+  EXPECT_THAT(seen.issues[0].text, HasSubstr("tag 1 is its mirror image"));
 }
 
 TEST(ObserveTest, TimesAreTheMiddleOfTheExposureOfTheTagsRows) {
@@ -170,22 +165,20 @@ TEST(ObserveTest, TimesAreTheMiddleOfTheExposureOfTheTagsRows) {
   EXPECT_DOUBLE_EQ(exposed_at(camera, 5, 50, 200), 5.0);
 
   MemorySource source(moving(3));
-  const auto seen = observed(source, camera);
-  ASSERT_TRUE(seen.has_value());
-  EXPECT_NEAR(seen->sightings[0].time_s, 12 - 0.004 + 0.016 * 60 / kHeight, 1e-5);
-  EXPECT_DOUBLE_EQ(seen->record.frame_times[0], 12);
+  const auto seen = value_of(observed(source, camera));
+  EXPECT_NEAR(seen.sightings[0].time_s, 12 - 0.004 + 0.016 * 60 / kHeight, 1e-5);
+  EXPECT_DOUBLE_EQ(seen.record.frame_times[0], 12);
 }
 
 TEST(ObserveTest, ARepeatedPictureHasTheSameCornersAgain) {
   std::vector<MemorySource::Shot> shots = moving(4);
   shots[2].picture = shots[1].picture;
   MemorySource source(std::move(shots));
-  const auto seen = observed(source);
-  ASSERT_TRUE(seen.has_value());
-  ASSERT_EQ(seen->sightings.size(), 4U);
-  EXPECT_EQ(seen->sightings[2].corners, seen->sightings[1].corners);
-  EXPECT_NE(seen->sightings[2].time_s, seen->sightings[1].time_s);
-  EXPECT_NE(seen->sightings[3].corners, seen->sightings[2].corners);
+  const auto seen = value_of(observed(source));
+  ASSERT_EQ(seen.sightings.size(), 4U);
+  EXPECT_EQ(seen.sightings[2].corners, seen.sightings[1].corners);
+  EXPECT_NE(seen.sightings[2].time_s, seen.sightings[1].time_s);
+  EXPECT_NE(seen.sightings[3].corners, seen.sightings[2].corners);
 }
 
 TEST(ObserveTest, AFloorTagThatIsThereTwiceIsInNoMedian) {
@@ -196,49 +189,45 @@ TEST(ObserveTest, AFloorTagThatIsThereTwiceIsInNoMedian) {
                         {100, square_corners(180, 180, 48, 0)}},
                        2.5));
   MemorySource source(std::move(shots));
-  const auto seen = observed(source);
-  ASSERT_TRUE(seen.has_value());
-  ASSERT_EQ(seen->record.references.size(), 1U);
-  EXPECT_EQ(seen->record.references[0].frames, 1);
+  const auto seen = value_of(observed(source));
+  ASSERT_EQ(seen.record.references.size(), 1U);
+  EXPECT_EQ(seen.record.references[0].frames, 1);
 }
 
 TEST(ObserveTest, AVideoThatBreaksOffIsARecordWithAnIssue) {
   MemorySource source(moving(6));
   source.breaks_at_ = 4;
-  const auto seen = observed(source);
-  ASSERT_TRUE(seen.has_value());
-  EXPECT_EQ(seen->record.frames, 4);
-  ASSERT_EQ(seen->issues.size(), 1U);
-  EXPECT_EQ(seen->issues[0].code, IssueCode::VideoTruncated);
+  const auto seen = value_of(observed(source));
+  EXPECT_EQ(seen.record.frames, 4);
+  ASSERT_EQ(seen.issues.size(), 1U);
+  EXPECT_EQ(seen.issues[0].code, IssueCode::VideoTruncated);
   EXPECT_EQ(
-      seen->issues[0].text,
+      seen.issues[0].text,
       "run.mp4: it broke off after 4 frames, at 12.300 s of its clock: run.mp4: invalid data");
 }
 
 TEST(ObserveTest, AVideoThatHasFewerFramesThanItAnnouncesIsTruncated) {
   MemorySource source(moving(6));
   source.info_.expected_frames = 60;
-  const auto seen = observed(source);
-  ASSERT_TRUE(seen.has_value());
-  ASSERT_EQ(seen->issues.size(), 1U);
-  EXPECT_EQ(seen->issues[0].code, IssueCode::VideoTruncated);
-  EXPECT_THAT(seen->issues[0].text, testing::HasSubstr("after 6 frames, at 12.500 s"));
+  const auto seen = value_of(observed(source));
+  ASSERT_EQ(seen.issues.size(), 1U);
+  EXPECT_EQ(seen.issues[0].code, IssueCode::VideoTruncated);
+  EXPECT_THAT(seen.issues[0].text, HasSubstr("after 6 frames, at 12.500 s"));
 }
 
 TEST(ObserveTest, AVideoThatEndsBeforeItsHeaderSaysIsTruncated) {
   MemorySource source(moving(3));
   source.info_.is_truncated = true;
-  const auto seen = observed(source);
-  ASSERT_TRUE(seen.has_value());
-  ASSERT_EQ(seen->issues.size(), 1U);
-  EXPECT_EQ(seen->issues[0].code, IssueCode::VideoTruncated);
+  const auto seen = value_of(observed(source));
+  ASSERT_EQ(seen.issues.size(), 1U);
+  EXPECT_EQ(seen.issues[0].code, IssueCode::VideoTruncated);
 }
 
 TEST(ObserveTest, AVideoWithoutFramesIsNone) {
   MemorySource empty({});
   const auto seen = observed(empty);
   ASSERT_FALSE(seen.has_value());
-  EXPECT_THAT(to_string(seen.error()), testing::HasSubstr("E_VIDEO_UNREADABLE"));
+  EXPECT_THAT(to_string(seen.error()), HasSubstr("E_VIDEO_UNREADABLE"));
   MemorySource broken(moving(2));
   broken.breaks_at_ = 0;
   const auto none = observed(broken);
@@ -252,19 +241,18 @@ TEST(ObserveTest, TimesThatGoBackAreAnError) {
   MemorySource source(std::move(shots));
   const auto seen = observed(source);
   ASSERT_FALSE(seen.has_value());
-  EXPECT_THAT(to_string(seen.error()), testing::HasSubstr("E_TIMESTAMPS"));
+  EXPECT_THAT(to_string(seen.error()), HasSubstr("E_TIMESTAMPS"));
 }
 
 TEST(ObserveTest, ASidecarMustHaveARowForEachFrame) {
   MemorySource source(moving(3));
   const auto seen = observed(source, {}, std::vector<double>{1, 1.1, 1.2, 1.3});
   ASSERT_FALSE(seen.has_value());
-  EXPECT_THAT(to_string(seen.error()), testing::HasSubstr("E_SIDECAR_MISMATCH"));
+  EXPECT_THAT(to_string(seen.error()), HasSubstr("E_SIDECAR_MISMATCH"));
   MemorySource again(moving(3));
-  const auto right = observed(again, {}, std::vector<double>{1, 1.1, 1.2});
-  ASSERT_TRUE(right.has_value());
-  EXPECT_EQ(right->record.time_source, TimeSource::Sidecar);
-  EXPECT_EQ(right->record.frame_times, (std::vector<double>{1, 1.1, 1.2}));
+  const auto right = value_of(observed(again, {}, std::vector<double>{1, 1.1, 1.2}));
+  EXPECT_EQ(right.record.time_source, TimeSource::Sidecar);
+  EXPECT_EQ(right.record.frame_times, (std::vector<double>{1, 1.1, 1.2}));
 }
 
 TEST(ObserveTest, TellsHowFarItIs) {
@@ -290,7 +278,7 @@ TEST(ObserveTest, AnUnknownFamilyIsNamed) {
   wrong.family = "tag37";
   const auto seen = observe({{}, source, *clock, {}}, wrong);
   ASSERT_FALSE(seen.has_value());
-  EXPECT_THAT(seen.error().message, testing::HasSubstr("tag37"));
+  EXPECT_THAT(seen.error().message, HasSubstr("tag37"));
 }
 
 }  // namespace

@@ -1,14 +1,11 @@
 #include "tracking/observing/sync_event.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <string>
+
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::HasSubstr;
 
 /// A camera of 10 frames a second that saw tag 99 where the text has an x.
 Observations seen(const std::string& frames) {
@@ -44,10 +41,9 @@ TEST(SyncEvent, IsNoFlickerOfTheDetector) {
 
 TEST(SyncEvent, NeedsTheOtherStateBefore) {
   for (const char* frames : {"........", "xxxxxxxx", "...xxxxx", "xx......", "xxxxxx..", ""}) {
-    const auto instant = hidden(frames);
-    ASSERT_FALSE(instant) << frames;
-    EXPECT_THAT(instant.error().message, HasSubstr("E_CONFIG: `sync`: tag 99 was covered at no"));
-    EXPECT_EQ(instant.error().kind, ErrorKind::BadInput);
+    const Error instant = why_not(hidden(frames));
+    EXPECT_THAT(instant.message, HasSubstr("E_CONFIG: `sync`: tag 99 was covered at no"));
+    EXPECT_EQ(instant.kind, ErrorKind::BadInput) << frames;
   }
 }
 

@@ -1,17 +1,13 @@
 #include "tracking/printing/board_sheet.h"
 
-#include <gmock/gmock.h>
-
 #include "console/pdf.h"
+#include "tests/support/checks.h"
 #include "tests/support/drawn_page.h"
 #include "tests/support/printed_page.h"
 #include "tracking/calibration/internal/charuco.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 TEST(BoardSheetTest, NamesTheLargestThatFits) {
   const auto sheet =
@@ -24,9 +20,9 @@ TEST(BoardSheetTest, NamesTheLargestThatFits) {
 }
 
 TEST(BoardSheetTest, AChessboardHasItsSquaresToAHundredthOfAMillimetre) {
-  const auto sheet = board_sheet(*parse_board("chessboard:4x3:0.0333"), *paper_from_name("A4"));
-  ASSERT_TRUE(sheet) << to_string(sheet.error());
-  const DrawnPage page = drawn_page(*sheet);
+  const auto sheet =
+      value_of(board_sheet(*parse_board("chessboard:4x3:0.0333"), *paper_from_name("A4")));
+  const DrawnPage page = drawn_page(sheet);
   ASSERT_EQ(page.bars.size(), 10U);
   const DrawnPage::Bar& first = page.bars.front();
   for (const DrawnPage::Bar& bar : page.bars) {
@@ -45,9 +41,8 @@ TEST(BoardSheetTest, OpencvReadsThePrintInTrueScale) {
   constexpr double kPixel = 25.4 / kDpi;
   for (const char* word : {"charuco:11x8:0.023:0.017:5x5_100", "charuco:6x5:0.03:0.022:4x4_50"}) {
     const Board board = *parse_board(word);
-    const auto sheet = board_sheet(board, *paper_from_name("A4"));
-    ASSERT_TRUE(sheet) << to_string(sheet.error());
-    const auto pdf = pdf_of_svg(*sheet);
+    const auto sheet = value_of(board_sheet(board, *paper_from_name("A4")));
+    const auto pdf = pdf_of_svg(sheet);
     if (!pdf) GTEST_SKIP() << "skipped: " << to_string(pdf.error());
     const auto sizes = page_sizes(*pdf);
     if (!sizes) GTEST_SKIP() << "skipped: " << to_string(sizes.error());

@@ -1,7 +1,5 @@
 #include "tracking/printing/tag_sheet.h"
 
-#include <gmock/gmock.h>
-
 #include <array>
 #include <cmath>
 #include <map>
@@ -9,6 +7,7 @@
 #include <set>
 
 #include "console/pdf.h"
+#include "tests/support/checks.h"
 #include "tests/support/drawn_page.h"
 #include "tests/support/not_empty.h"
 #include "tests/support/printed_page.h"
@@ -23,10 +22,6 @@ extern "C" {
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 TagSheetOptions options_for(std::vector<int> ids, double edge_m, const char* paper) {
   return {"tag36h11", std::move(ids), edge_m, *paper_from_name(paper)};
@@ -67,9 +62,8 @@ TEST(TagSheetTest, PutsAsManyOnAPageAsFit) {
 
 TEST(TagSheetTest, DrawsTheOfficialPatternToAHundredthOfAMillimetre) {
   const double edge = 0.0371;  // no round cells
-  const auto sheets = tag_sheets(options_for({42}, edge, "A4"));
-  ASSERT_TRUE(sheets);
-  const std::string& sheet = sheets->front();
+  const auto sheets = value_of(tag_sheets(options_for({42}, edge, "A4")));
+  const std::string& sheet = sheets.front();
   EXPECT_EQ(xml_trouble(sheet), "");
   const DrawnPage page = drawn_page(sheet);
   const TagPattern pattern = *tag_pattern("tag36h11", 42);
@@ -110,9 +104,7 @@ TEST(TagSheetTest, NoTextStandsOnAnother) {
     for (const std::string family : {"tag36h11", "tagStandard41h12"}) {
       TagSheetOptions options = options_for({0, 1, 2, 3, 586}, edge, "A3");
       options.family = family;
-      const auto sheets = tag_sheets(options);
-      ASSERT_TRUE(sheets) << to_string(sheets.error());
-      for (const std::string& sheet : *sheets)
+      for (const std::string& sheet : not_empty(value_of(tag_sheets(options))))
         EXPECT_THAT(drawn_page(sheet).collisions(), IsEmpty()) << edge << family;
     }
   }

@@ -1,19 +1,15 @@
 #include "tracking/profile/lab_profile.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <stdexcept>
 
 #include "sim/files/profile_file.h"
+#include "tests/support/checks.h"
 #include "tests/support/long_runs.h"
 #include "tests/tracking/profile/virtual_lab.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 Profile profile_of(const LabProfile& made) {
   const auto read = parse_profile(made.text, "lab.toml");

@@ -1,9 +1,8 @@
 #include "tracking/report/quality.h"
 
-#include <gmock/gmock.h>
-
 #include <nlohmann/json.hpp>
 
+#include "tests/support/checks.h"
 #include "tests/support/xml_check.h"
 #include "tests/tracking/report/reported_run.h"
 #include "tracking/robots/reality_text.h"
@@ -11,8 +10,6 @@
 namespace swarmsmith {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
 using Json = nlohmann::json;
 
 TEST(QualityTest, JsonSaysWhatWasMeasured) {

@@ -1,8 +1,7 @@
-#include <gmock/gmock.h>
-
 #include <nlohmann/json.hpp>
 
 #include "base/text/sha256.h"
+#include "tests/support/checks.h"
 #include "tests/tracking/report/reported_run.h"
 #include "tracking/report/quality.h"
 #include "tracking/report/result_text.h"
@@ -11,7 +10,6 @@
 namespace swarmsmith {
 namespace {
 
-using testing::HasSubstr;
 using Json = nlohmann::json;
 
 Json json_or_null(const std::optional<double>& value) {

@@ -1,15 +1,12 @@
 #include "tracking/report/timeline.h"
 
-#include <gmock/gmock.h>
-
+#include "tests/support/checks.h"
 #include "tests/support/drawn_page.h"
 #include "tests/support/xml_check.h"
 #include "tests/tracking/report/reported_run.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::IsEmpty;
 
 constexpr double kWidth = 170;
 

@@ -1,13 +1,11 @@
-#include <gmock/gmock.h>
-
 #include "tracking/rig/check.h"
+
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
 
 using Outcome = Check::Outcome;
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 constexpr Question kGap{"longest gap", "s", "a robot that was hidden"};
 constexpr Question kRate{"frame rate", "frames/s", "gaps between frames"};

@@ -1,19 +1,13 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <map>
 
 #include "base/math.h"
 #include "base/text/document.h"
 #include "base/text/sha256.h"
+#include "tests/support/checks.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 constexpr char kArena[] = R"(format = 1
 family = "tag36h11"
@@ -108,16 +102,8 @@ std::map<std::string, std::string> calibrations() {
           {"rvr1.offset.toml", calibration_text(offset_calibration())}};
 }
 
-std::vector<std::string> sentences_of(const std::vector<Error>& errors) {
-  std::vector<std::string> sentences;
-  for (const Error& error : errors)
-    sentences.push_back(to_string(error));
-  return sentences;
-}
-
 std::vector<std::string> complaints_about(const std::string& text) {
-  const auto rig = parse_rig(text, "arena.toml", files({}));
-  return rig ? std::vector<std::string>{} : sentences_of(rig.error());
+  return complaints_of(parse_rig(text, "arena.toml", files({})));
 }
 
 /// The arena of the tests with `before` replaced.
@@ -129,31 +115,29 @@ std::string arena_with(const std::string& before, const std::string& after) {
 }
 
 TEST(RigFile, SaysWhatHangsLiesAndDrives) {
-  const auto rig = parse_rig(kArena, "lab/arena.toml", files({}));
-  ASSERT_TRUE(rig) << to_string(rig.error().front());
-  EXPECT_EQ(rig->file, "arena.toml");
-  EXPECT_THAT(rig->cameras,
+  const auto rig = value_of(parse_rig(kArena, "lab/arena.toml", files({})));
+  EXPECT_EQ(rig.file, "arena.toml");
+  EXPECT_THAT(rig.cameras,
               ElementsAre(CameraSetup{"ceiling", "ceiling.camera.toml", "ceiling.place.toml",
                                       StampedAt::Start, 0.008, 0.016, 1.5, 4}));
-  EXPECT_THAT(rig->references, ElementsAre(ReferenceTag{100, {1.0, 0.2, kPi / 2}, 0.10}));
-  EXPECT_THAT(rig->robots, ElementsAre(RobotSetup{"rvr1", 1, 0.10, 0.20, "rvr1.offset.toml"},
-                                       RobotSetup{"rvr2", 2, 0.10, 0.20, ""}));
-  EXPECT_THAT(rig->models, IsEmpty());
-  EXPECT_FALSE(rig->view_of(rig->cameras[0]));
+  EXPECT_THAT(rig.references, ElementsAre(ReferenceTag{100, {1.0, 0.2, kPi / 2}, 0.10}));
+  EXPECT_THAT(rig.robots, ElementsAre(RobotSetup{"rvr1", 1, 0.10, 0.20, "rvr1.offset.toml"},
+                                      RobotSetup{"rvr2", 2, 0.10, 0.20, ""}));
+  EXPECT_THAT(rig.models, IsEmpty());
+  EXPECT_FALSE(rig.view_of(rig.cameras[0]));
 }
 
 TEST(RigFile, TakesTheCalibrationsThatAreThere) {
   const auto texts = calibrations();
-  const auto rig = parse_rig(kArena, "arena.toml", files(texts));
-  ASSERT_TRUE(rig) << to_string(rig.error().front());
-  EXPECT_TRUE(rig->view_of(rig->cameras[0]));
-  EXPECT_EQ(rig->offset_of(rig->robots[0]), (TagOffset{0.05, -0.05, 0}));
-  EXPECT_FALSE(rig->offset_of(rig->robots[1]));
-  const CalibrationFile& file = rig->files.at("rvr1.offset.toml");
+  const auto rig = value_of(parse_rig(kArena, "arena.toml", files(texts)));
+  EXPECT_TRUE(rig.view_of(rig.cameras[0]));
+  EXPECT_EQ(rig.offset_of(rig.robots[0]), (TagOffset{0.05, -0.05, 0}));
+  EXPECT_FALSE(rig.offset_of(rig.robots[1]));
+  const CalibrationFile& file = rig.files.at("rvr1.offset.toml");
   EXPECT_EQ(file.text, texts.at("rvr1.offset.toml"));
   EXPECT_EQ(file.sha256, sha256_of(file.text));
   EXPECT_EQ(file.made, "2026-11-20T12:00:00Z");
-  EXPECT_THAT(misfits(*rig), IsEmpty());
+  EXPECT_THAT(misfits(rig), IsEmpty());
 }
 
 TEST(RigFile, NamesEachMistakeByPlaceKeyAndWhatIsAllowed) {
@@ -203,7 +187,7 @@ edge = 0.1
 TEST(RigFile, RefusesATagThatIsThereTwice) {
   const auto rig = parse_rig(arena_with("tag = 2", "tag = 1"), "arena.toml", files({}));
   ASSERT_FALSE(rig);
-  EXPECT_THAT(sentences_of(rig.error()),
+  EXPECT_THAT(lines_of(rig.error()),
               ElementsAre(AllOf(HasSubstr("arena.toml:25:7: E_DUPLICATE_ID: tag 1 is on robot "),
                                 HasSubstr("\"rvr1\" and on robot \"rvr2\""))));
   EXPECT_EQ(rig.error().front().kind, ErrorKind::BadInput);
@@ -239,29 +223,27 @@ OffsetCalibration two_offsets() {
 TEST(RigFile, LetsARobotCarrySeveralTags) {
   auto texts = calibrations();
   texts["rvr1.offset.toml"] = calibration_text(two_offsets());
-  const auto rig = parse_rig(arena_with_two_tags(), "arena.toml", files(texts));
-  ASSERT_TRUE(rig) << to_string(rig.error().front());
-  ASSERT_EQ(rig->robots.size(), 2U);
-  EXPECT_EQ(tags_text(rig->robots[0]), "tags 1, 11");
-  EXPECT_EQ(tags_text(rig->robots[1]), "tag 2");
-  const std::vector<RobotSetup> tags = each_tag(rig->robots);
+  const auto rig = value_of(parse_rig(arena_with_two_tags(), "arena.toml", files(texts)));
+  ASSERT_EQ(rig.robots.size(), 2U);
+  EXPECT_EQ(tags_text(rig.robots[0]), "tags 1, 11");
+  EXPECT_EQ(tags_text(rig.robots[1]), "tag 2");
+  const std::vector<RobotSetup> tags = each_tag(rig.robots);
   ASSERT_EQ(tags.size(), 3U);
   EXPECT_EQ(tags[1].name, "rvr1");
   EXPECT_EQ(tags[1].tag, 11);
   EXPECT_EQ(tags[1].edge_m, 0.08);
   EXPECT_EQ(tags[1].height_m, 0.15);
   EXPECT_EQ(tags[1].height_error_m, 0.002);
-  EXPECT_EQ(rig->offset_of(tags[0]), offset_calibration().offset);
-  EXPECT_EQ(rig->offset_of(tags[1]), (TagOffset{-0.06, 0.01, 1.5}));
-  EXPECT_THAT(misfits(*rig), IsEmpty());
-  const OffsetCalibration& read = rig->offsets.at("rvr1.offset.toml");
+  EXPECT_EQ(rig.offset_of(tags[0]), offset_calibration().offset);
+  EXPECT_EQ(rig.offset_of(tags[1]), (TagOffset{-0.06, 0.01, 1.5}));
+  EXPECT_THAT(misfits(rig), IsEmpty());
+  const OffsetCalibration& read = rig.offsets.at("rvr1.offset.toml");
   EXPECT_EQ(calibration_text(read), calibration_text(two_offsets()));
 }
 
 TEST(RigFile, RefusesTagsOfOneRobotThatDoNotFit) {
   const auto said = [](const std::string& more) {
-    const auto rig = parse_rig(arena_with_two_tags(more), "arena.toml", files({}));
-    return rig ? std::vector<std::string>{} : sentences_of(rig.error());
+    return complaints_about(arena_with_two_tags(more));
   };
   const std::string size = "edge = 0.08\nheight = 0.15\n";
   EXPECT_THAT(said("[[robot.more_tags]]\ntag = 2\n" + size),
@@ -274,10 +256,9 @@ TEST(RigFile, RefusesTagsOfOneRobotThatDoNotFit) {
   EXPECT_THAT(said("[[robot.more_tags]]\ntag = 11\nname = \"a\"\n" + size),
               ElementsAre(HasSubstr("name")));
   // Calibrated before it had the second one.
-  const auto rig = parse_rig(arena_with_two_tags(), "arena.toml", files(calibrations()));
-  ASSERT_TRUE(rig);
-  EXPECT_THAT(sentences_of(misfits(*rig)), ElementsAre(HasSubstr("tag 1 and not 11")));
-  EXPECT_EQ(rig->offset_of(rig->robots[0].more_tags.front()), std::nullopt);
+  const auto rig = value_of(parse_rig(arena_with_two_tags(), "arena.toml", files(calibrations())));
+  EXPECT_THAT(lines_of(misfits(rig)), ElementsAre(HasSubstr("tag 1 and not 11")));
+  EXPECT_EQ(rig.offset_of(rig.robots[0].more_tags.front()), std::nullopt);
 }
 
 TEST(RigFile, NeedsACamera) {
@@ -299,9 +280,8 @@ TEST(RigFile, TakesForeignLettersInStringsAndCommentsOnly) {
 TEST(RigFile, ShowsWhatIsWrongInACalibration) {
   auto texts = calibrations();
   texts["rvr1.offset.toml"] = "format = 1\nrobbot = \"rvr1\"\n";
-  const auto rig = parse_rig(kArena, "arena.toml", files(texts));
-  ASSERT_FALSE(rig);
-  EXPECT_THAT(to_string(rig.error().front()), HasSubstr("rvr1.offset.toml:"));
+  EXPECT_THAT(complaint_of(parse_rig(kArena, "arena.toml", files(texts))),
+              HasSubstr("rvr1.offset.toml:"));
 }
 
 TEST(RigFile, SaysWhichCalibrationsDoNotBelongTogether) {
@@ -309,10 +289,9 @@ TEST(RigFile, SaysWhichCalibrationsDoNotBelongTogether) {
   CameraCalibration later = camera_calibration();
   later.model.fx = 1016;
   texts["ceiling.camera.toml"] = calibration_text(later);
-  const auto rig = parse_rig(arena_with("tag = 1\nedge = 0.10", "tag = 3\nedge = 0.12"),
-                             "arena.toml", files(texts));
-  ASSERT_TRUE(rig) << to_string(rig.error().front());
-  EXPECT_THAT(sentences_of(misfits(*rig)),
+  const auto rig = value_of(parse_rig(arena_with("tag = 1\nedge = 0.10", "tag = 3\nedge = 0.12"),
+                                      "arena.toml", files(texts)));
+  EXPECT_THAT(lines_of(misfits(rig)),
               ElementsAre(AllOf(HasSubstr("ceiling.place.toml: E_CALIB_QUALITY: "),
                                 HasSubstr("another calibration"), HasSubstr("calibrate arena")),
                           AllOf(HasSubstr("rvr1.offset.toml: E_CALIB_QUALITY: "),
@@ -325,9 +304,8 @@ TEST(RigFile, RefusesATagAboveWhereTheCameraReallyHangs) {
   PlaceCalibration low = place_calibration(texts.at("ceiling.camera.toml"));
   low.place.translation = {0, 0, 0.15};
   texts["ceiling.place.toml"] = calibration_text(low);
-  const auto rig = parse_rig(kArena, "arena.toml", files(texts));
-  ASSERT_TRUE(rig) << to_string(rig.error().front());
-  EXPECT_THAT(sentences_of(misfits(*rig)),
+  const auto rig = value_of(parse_rig(kArena, "arena.toml", files(texts)));
+  EXPECT_THAT(lines_of(misfits(rig)),
               ElementsAre(AllOf(HasSubstr("E_CONFIG: `height` of robot \"rvr1\""),
                                 HasSubstr("hangs at 0.15 m; this is 0.2")),
                           HasSubstr("robot \"rvr2\"")));

@@ -1,13 +1,8 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
+#include "tests/support/checks.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 constexpr char kLog[] = R"(format = 1
 name = "run07"
@@ -31,28 +26,22 @@ color = "green"
 )";
 
 std::vector<std::string> complaints_about(const std::string& text) {
-  const auto log = parse_run_log(text, "run.toml");
-  std::vector<std::string> sentences;
-  if (log) return sentences;
-  for (const Error& error : log.error())
-    sentences.push_back(to_string(error));
-  return sentences;
+  return complaints_of(parse_run_log(text, "run.toml"));
 }
 
 TEST(RunLogFile, SaysWhatAPersonKnowsOfARun) {
-  const auto log = parse_run_log(kLog, "run.toml");
-  ASSERT_TRUE(log) << to_string(log.error().front());
-  EXPECT_EQ(log->name, "run07");
-  EXPECT_EQ(log->recorded, "2026-11-21");
-  EXPECT_EQ(log->mission, *built_in_mission("color_selection"));
-  EXPECT_EQ(log->design, "d3");
-  EXPECT_EQ(log->start.time_s, 12.4);
-  ASSERT_EQ(log->videos.size(), 2U);
-  EXPECT_EQ(log->videos[0].times, "run07.times.csv");
-  EXPECT_EQ(log->videos[1].clock_ahead_s, -0.02);
-  EXPECT_EQ(log->layout.source, RunLayout::Source::Log);
-  ASSERT_EQ(log->layout.patches.size(), 1U);
-  EXPECT_EQ(log->layout.patches[0], (PatchPlacement{{0.3, 0}, {0, 255, 0}}));
+  const auto log = value_of(parse_run_log(kLog, "run.toml"));
+  EXPECT_EQ(log.name, "run07");
+  EXPECT_EQ(log.recorded, "2026-11-21");
+  EXPECT_EQ(log.mission, *built_in_mission("color_selection"));
+  EXPECT_EQ(log.design, "d3");
+  EXPECT_EQ(log.start.time_s, 12.4);
+  ASSERT_EQ(log.videos.size(), 2U);
+  EXPECT_EQ(log.videos[0].times, "run07.times.csv");
+  EXPECT_EQ(log.videos[1].clock_ahead_s, -0.02);
+  EXPECT_EQ(log.layout.source, RunLayout::Source::Log);
+  ASSERT_EQ(log.layout.patches.size(), 1U);
+  EXPECT_EQ(log.layout.patches[0], (PatchPlacement{{0.3, 0}, {0, 255, 0}}));
 }
 
 TEST(RunLogFile, ReadsBackToTheSameBits) {
@@ -91,10 +80,9 @@ TEST(RunLogFile, ReadsBackToTheSameBits) {
 }
 
 TEST(RunLogFile, HasTheNameOfItsFileWhenItSaysNone) {
-  const auto log = parse_run_log("format = 1\n", "some/run08.toml");
-  ASSERT_TRUE(log);
-  EXPECT_EQ(log->name, "run08");
-  EXPECT_EQ(log->mission.name, "");
+  const auto log = value_of(parse_run_log("format = 1\n", "some/run08.toml"));
+  EXPECT_EQ(log.name, "run08");
+  EXPECT_EQ(log.mission.name, "");
 }
 
 TEST(RunLogFile, NamesEachMistakeByPlaceKeyAndWhatIsAllowed) {
@@ -134,7 +122,7 @@ color = "gren"
 }
 
 TEST(RunLogFile, HasANoteOfEachRobotAndACheckOfTheStart) {
-  const auto log = parse_run_log(R"(format = 1
+  const auto log = value_of(parse_run_log(R"(format = 1
 robots = ["rvr1", "rvr2"]
 start = "12.4 s"
 sync = { tag = 99, when = "hidden" }
@@ -146,12 +134,11 @@ name = "rvr2"
 verdict = "DEGRADED"
 reasons = ["1.5 % of the cycles were skipped"]
 )",
-                                 "run.toml");
-  ASSERT_TRUE(log) << to_string(log.error().front());
-  EXPECT_EQ(log->start.time_s, 12.4);
-  EXPECT_EQ(log->start.sync_tag, 99);
+                                          "run.toml"));
+  EXPECT_EQ(log.start.time_s, 12.4);
+  EXPECT_EQ(log.start.sync_tag, 99);
   EXPECT_THAT(
-      log->notes,
+      log.notes,
       ElementsAre(RobotNote{"rvr1", "run07.rvr1.log.csv", std::nullopt, {}},
                   RobotNote{"rvr2", "", Verdict::Degraded, {"1.5 % of the cycles were skipped"}}));
   EXPECT_THAT(complaints_about("format = 1\n[[robot]]\nverdict = \"fine\"\nlogs = \"a\"\n"),

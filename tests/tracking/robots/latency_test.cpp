@@ -1,16 +1,13 @@
 #include "tracking/robots/latency.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/rng.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 using Commands = std::vector<TimedCommand>;
 

@@ -1,18 +1,13 @@
 #include "tracking/robots/robot_logs.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include "base/math.h"
 #include "base/rng.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 constexpr int kCycles = 600;
 /// Of the robot's clock, when it begins.
@@ -174,7 +169,7 @@ TEST_F(RobotLogsTest, SayForHowLongTheDriverDidNotObey) {
   EXPECT_EQ(quiet.reason, "its driver did not say what the treads do (`driven`)");
   const Check old = asked(std::nullopt, RunVerdict::Valid, 0);
   EXPECT_EQ(old.outcome, Check::Outcome::NotRun);
-  EXPECT_THAT(old.reason, testing::HasSubstr("it is an older one"));
+  EXPECT_THAT(old.reason, HasSubstr("it is an older one"));
   logs[0].record.head.end.reset();
   seen.logs = logs;
   EXPECT_EQ(check_of(checks_of_logs(run, seen, log, judged()), "driver watched", "rvr1")->reason,
@@ -235,7 +230,7 @@ TEST_F(RobotLogsTest, ALogThatEndsEarlyIsSaidWithBothTimes) {
   logs[1].record.rows.resize(kCycles - 10);
   EXPECT_THAT(judged().issues, IsEmpty());
   logs[1].record.rows.clear();
-  EXPECT_THAT(judged().issues, testing::Contains(Is(IssueCode::LogShort, "rvr2", "ends at 0.0 s")));
+  EXPECT_THAT(judged().issues, Contains(Is(IssueCode::LogShort, "rvr2", "ends at 0.0 s")));
 }
 
 TEST_F(RobotLogsTest, ALogWithoutAnEndIsJudgedByItsRows) {
@@ -327,7 +322,7 @@ TEST_F(RobotLogsTest, ATagThatIsTurnedHalfRoundDrivesAgainstItsCommands) {
     sample.pose.theta += kPi;
   Observations seen;
   seen.logs = logs;
-  EXPECT_THAT(judged().issues, testing::IsEmpty()) << "nothing says how its tag is turned on it";
+  EXPECT_THAT(judged().issues, IsEmpty()) << "nothing says how its tag is turned on it";
   run.robots[0].has_heading = true;
   const RobotFindings found = judged();
   EXPECT_THAT(found.issues, ElementsAre(Is(IssueCode::TagTurned, "rvr1", "drive back")));
@@ -378,9 +373,8 @@ TEST_F(RobotLogsTest, OfAnotherRunRobotMachineOrWorldAreForeign) {
               HasSubstr("do not increase"));
   EXPECT_FALSE(other_machine(logs[1], logs[0]));
   logs[1].record.head.machine_digest = "bb22";
-  const auto other = other_machine(logs[1], logs[0]);
-  ASSERT_TRUE(other);
-  EXPECT_THAT(other->text, HasSubstr("digest bb22, and rvr1 ran one with aa11"));
+  const auto other = value_of(other_machine(logs[1], logs[0]));
+  EXPECT_THAT(other.text, HasSubstr("digest bb22, and rvr1 ran one with aa11"));
 }
 
 }  // namespace

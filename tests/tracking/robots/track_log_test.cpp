@@ -1,13 +1,10 @@
 #include "robot/log/track_log.h"
 
-#include <gmock/gmock.h>
-
+#include "tests/support/checks.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::ElementsAre;
 
 /// What `swarmsmith-robot start` writes is what the tracker reads.
 TEST(TrackLogTest, IsReadByTheTracker) {

@@ -1,10 +1,9 @@
 #include "tracking/scoring/border.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "base/rng.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -15,12 +14,11 @@ constexpr Rgb kGreen{0, 255, 0};
 TEST(BorderTest, OfASpotIsItsCircle) {
   const Mission mission = built_in_mission("aggregation").value();
   for (const Point point : {Point{0.3, 0.1}, Point{-0.7, 0.6}, Point{0, 0}, Point{0.5, 0}}) {
-    const auto border = nearest_border(mission.rule, mission.arena, point);
-    ASSERT_TRUE(border);
-    EXPECT_NEAR(border->distance_m, std::fabs(0.5 - std::hypot(point.x, point.y)), 1e-12);
-    EXPECT_EQ(border->name, "black spot at (0, 0)");
-    EXPECT_EQ(border->here, std::hypot(point.x, point.y) <= 0.5 ? 1 : 0);
-    EXPECT_EQ(border->beyond, 1 - border->here);
+    const auto border = value_of(nearest_border(mission.rule, mission.arena, point));
+    EXPECT_NEAR(border.distance_m, std::fabs(0.5 - std::hypot(point.x, point.y)), 1e-12);
+    EXPECT_EQ(border.name, "black spot at (0, 0)");
+    EXPECT_EQ(border.here, std::hypot(point.x, point.y) <= 0.5 ? 1 : 0);
+    EXPECT_EQ(border.beyond, 1 - border.here);
   }
 }
 

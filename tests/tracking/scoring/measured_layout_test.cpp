@@ -1,19 +1,16 @@
 #include "tracking/scoring/measured_layout.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/rng.h"
+#include "tests/support/checks.h"
 #include "tests/support/film/virtual_camera.h"
 #include "tracking/scoring/internal/floor_light.h"
 #include "tracking/scoring/run_patches.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 /// How a floor is lit and its colours printed.
 struct Light {
@@ -119,21 +116,16 @@ TEST_F(MeasuredLayoutTest, RefusesWhatItCannotSee) {
   EXPECT_THAT(measured({.cast = {0.02, 0.02, 0.02}}).error().message,
               HasSubstr("E_LAYOUT_MISSING: the pictures are too dark"));
   EXPECT_THAT(measured({.cast = {3, 3, 3}}).error().message, HasSubstr("overexposed"));
-  const auto gray = measured({.saturation = 0.02});
-  ASSERT_FALSE(gray);
-  EXPECT_THAT(gray.error().message, HasSubstr("E_LAYOUT_MISSING: the patch at (0.75, -0.25)"));
-  EXPECT_THAT(gray.error().message, HasSubstr("of the floor around it"));
+  const Error gray = why_not(measured({.saturation = 0.02}));
+  EXPECT_THAT(gray.message, HasSubstr("E_LAYOUT_MISSING: the patch at (0.75, -0.25)"));
+  EXPECT_THAT(gray.message, HasSubstr("of the floor around it"));
 }
 
 TEST_F(MeasuredLayoutTest, RefusesColoursThatAreNotTheMissions) {
   instance.patches[2].color = {0, 0, 255};
-  const auto blue = measured({});
-  ASSERT_FALSE(blue);
-  EXPECT_THAT(blue.error().message, HasSubstr("cannot be measured"));
+  EXPECT_THAT(complaint_of(measured({})), HasSubstr("cannot be measured"));
   instance.patches[2].color = instance.patches.back().color;
-  const auto too_many = measured({});
-  ASSERT_FALSE(too_many);
-  EXPECT_THAT(too_many.error().message,
+  EXPECT_THAT(complaint_of(measured({})),
               HasSubstr("patches were seen as 3 green, 4 red, 5 yellow, and the mission has 4 "
                         "green, 4 red, 4 yellow"));
 }
@@ -141,10 +133,9 @@ TEST_F(MeasuredLayoutTest, RefusesColoursThatAreNotTheMissions) {
 TEST_F(MeasuredLayoutTest, TellsBarePlacesWhereTheMissionHasThem) {
   mission.shuffled.shares[1].count = 2;
   instance = instance_of(mission, 11).value();
-  const auto layout = measured({.cast = {1.3, 1, 0.8}});
-  ASSERT_TRUE(layout) << to_string(layout.error());
-  EXPECT_EQ(layout->patches(mission.arena), laid());
-  EXPECT_EQ(layout->patches(mission.arena).size(), 10U);
+  const auto layout = value_of(measured({.cast = {1.3, 1, 0.8}}));
+  EXPECT_EQ(layout.patches(mission.arena), laid());
+  EXPECT_EQ(layout.patches(mission.arena).size(), 10U);
 }
 
 /// A robot that stopped on a patch leaves a corner of it, or nothing; never another colour.
@@ -178,28 +169,23 @@ TEST_F(MeasuredLayoutTest, LooksBesideRobots) {
   }
   const FloorPicture hidden = picture_of(crowded, {.noise = 2}, before, 0);
   const std::vector<FloorPicture> one{hidden};
-  const auto alone = measure_layout(one, mission);
-  ASSERT_FALSE(alone);
-  EXPECT_THAT(alone.error().message, HasSubstr("always hidden by a robot"));
+  EXPECT_THAT(complaint_of(measure_layout(one, mission)), HasSubstr("always hidden by a robot"));
   const std::vector<FloorPicture> two{hidden, picture_of(crowded, {.noise = 2}, after, 10)};
-  const auto layout = measure_layout(two, mission);
-  ASSERT_TRUE(layout) << to_string(layout.error());
-  EXPECT_EQ(layout->patches(mission.arena), laid());
-  EXPECT_EQ(layout->places[3].pictures, 1);
+  const auto layout = value_of(measure_layout(two, mission));
+  EXPECT_EQ(layout.patches(mission.arena), laid());
+  EXPECT_EQ(layout.places[3].pictures, 1);
 }
 
 /// The light is that of bare floor, however much around a place is painted.
 TEST_F(MeasuredLayoutTest, TakesNoLightFromAPaintedFloor) {
   const Rectangle place = mission.shuffled.places[5];
   const FloorPicture bare = picture_of(scene(), {});
-  const auto plain = FloorLight(bare, mission).ratio_of(place);
-  ASSERT_TRUE(plain);
+  const auto plain = value_of(FloorLight(bare, mission).ratio_of(place));
   mission.arena.patches.push_back({Rectangle{place.centre, 0.8, 0.8}, {255, 0, 0}});
   const FloorPicture painted = picture_of(scene(), {});
-  const auto beside_paint = FloorLight(painted, mission).ratio_of(place);
-  ASSERT_TRUE(beside_paint);
+  const auto beside_paint = value_of(FloorLight(painted, mission).ratio_of(place));
   for (std::size_t channel = 0; channel < 3; ++channel)
-    EXPECT_NEAR(beside_paint->at(channel), plain->at(channel), 0.05) << channel;
+    EXPECT_NEAR(beside_paint.at(channel), plain.at(channel), 0.05) << channel;
 }
 
 /// A robot hides 0.1 m behind it, seen from 2.7 m above, beside its own half width.

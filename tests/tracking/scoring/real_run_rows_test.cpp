@@ -1,7 +1,6 @@
 #include "tracking/scoring/real_run_rows.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <set>
@@ -9,6 +8,7 @@
 
 #include "base/math.h"
 #include "storage/stored_enums.h"
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 #include "tracking/robots/robot_logs.h"
 #include "tracking/scoring/score_run.h"
@@ -150,18 +150,17 @@ TEST_F(RealRunRowsTest, HoldWhatTheRunIs) {
 
 TEST_F(RealRunRowsTest, ScoreAgainToTheSameBits) {
   const RealRunRows run = rows();
-  const auto stored = stored_run(run);
-  ASSERT_TRUE(stored) << to_string(stored.error().front());
+  const auto stored = value_of(stored_run(run));
   const TrackedRun again =
-      track_run(stored->observations, stored->rig, seen.arena, seen.options).value();
+      track_run(stored.observations, stored.rig, seen.arena, seen.options).value();
   EXPECT_EQ(again.trajectory, tracked.trajectory);
   EXPECT_EQ(again.starts, tracked.starts);
   EXPECT_EQ(again.issues, tracked.issues);
   const ScoredRun rescored =
-      score_run(again, stored->log.mission, patches, stored->observations.issues).value();
+      score_run(again, stored.log.mission, patches, stored.observations.issues).value();
   EXPECT_EQ(rescored.score, scored.score);
   EXPECT_EQ(rescored.issues, scored.issues);
-  EXPECT_EQ(stored->log, log);
+  EXPECT_EQ(stored.log, log);
 }
 
 TEST_F(RealRunRowsTest, AreTheSameRowsAfterARoundTrip) {
@@ -240,16 +239,15 @@ TEST_F(RealRunRowsTest, HoldTheRobotsLogsFromWhichLatencyFollowsAgain) {
   EXPECT_EQ(run.log_cycles[1].cycle, 1);
   EXPECT_EQ(run.log_cycles[1].ages_ms[0], 1.0 / 7);
   EXPECT_FALSE(run.log_cycles[1].ages_ms[1]);
-  const auto stored = stored_run(run);
-  ASSERT_TRUE(stored) << to_string(stored.error().front());
-  const RobotFindings again = judge_robots(tracked, stored->observations.logs, stored->log);
+  const auto stored = value_of(stored_run(run));
+  const RobotFindings again = judge_robots(tracked, stored.observations.logs, stored.log);
   EXPECT_EQ(again.issues, found.issues);
   for (const std::size_t i : {0U, 1U}) {
     EXPECT_EQ(again.latencies[i]->seconds, found.latencies[i]->seconds);
     EXPECT_EQ(again.latencies[i]->agreement, found.latencies[i]->agreement);
     EXPECT_EQ(again.latencies[i]->reason, found.latencies[i]->reason);
   }
-  const RealRunRows once_more = rows_of(stored->rig, stored->log, stored->observations);
+  const RealRunRows once_more = rows_of(stored.rig, stored.log, stored.observations);
   EXPECT_EQ(once_more.logs, run.logs);
   EXPECT_EQ(once_more.log_cycles, run.log_cycles);
 }
@@ -280,8 +278,8 @@ TEST_F(RealRunRowsTest, SayWhenATagWasTakenForTheCentre) {
 }
 
 TEST(Verdicts, OfAStoreAreThoseOfARun) {
-  EXPECT_THAT(kVerdicts, testing::ElementsAre(name_of(Verdict::Valid), name_of(Verdict::Degraded),
-                                              name_of(Verdict::Invalid)));
+  EXPECT_THAT(kVerdicts, ElementsAre(name_of(Verdict::Valid), name_of(Verdict::Degraded),
+                                     name_of(Verdict::Invalid)));
 }
 
 }  // namespace

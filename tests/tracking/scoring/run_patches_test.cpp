@@ -1,11 +1,9 @@
 #include "tracking/scoring/run_patches.h"
 
-#include <gmock/gmock.h>
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 class RunPatchesTest : public testing::Test {
  protected:
@@ -32,10 +30,9 @@ TEST_F(RunPatchesTest, LieOnThePlacesToTheBit) {
 }
 
 TEST_F(RunPatchesTest, AreNeverAssumed) {
-  const auto none = run_patches(mission, std::nullopt);
-  ASSERT_FALSE(none);
-  EXPECT_THAT(none.error().message, HasSubstr("E_LAYOUT_MISSING"));
-  EXPECT_EQ(none.error().kind, ErrorKind::Corrupt);
+  const Error none = why_not(run_patches(mission, std::nullopt));
+  EXPECT_THAT(none.message, HasSubstr("E_LAYOUT_MISSING"));
+  EXPECT_EQ(none.kind, ErrorKind::Corrupt);
   patches.clear();
   EXPECT_THAT(refusal(), HasSubstr("E_LAYOUT_MISSING"));
 }

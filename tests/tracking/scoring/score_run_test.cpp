@@ -1,13 +1,10 @@
 #include "tracking/scoring/score_run.h"
 
-#include <gmock/gmock.h>
-
+#include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 Mission mission_of(const char* name, int cycles) {
   Mission mission = built_in_mission(name).value();
@@ -80,8 +77,7 @@ TEST(ScoreRunTest, TheVerdictFollowsFromAllIssues) {
   const ScoredRun scored =
       score_run(run, mission, {}, {{IssueCode::FramesDropped, "6 %", {}, {}, {}}}).value();
   EXPECT_EQ(scored.verdict, Verdict::Invalid);
-  EXPECT_THAT(scored.reasons,
-              testing::ElementsAre("W_FRAMES_DROPPED: 6 %", "E_GAP: rvr1 was not seen"));
+  EXPECT_THAT(scored.reasons, ElementsAre("W_FRAMES_DROPPED: 6 %", "E_GAP: rvr1 was not seen"));
   EXPECT_EQ(scored.score, 2);  // provisional
   run.issues = {{IssueCode::TagAsCentre, "rvr1", "rvr1", {}, {}}};
   EXPECT_TRUE(score_run(run, mission, {}, {})->biased);

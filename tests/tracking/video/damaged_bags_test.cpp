@@ -1,10 +1,10 @@
-#include <gmock/gmock.h>
 #include <sys/wait.h>
 
 #include <filesystem>
 #include <functional>
 
 #include "base/rng.h"
+#include "tests/support/checks.h"
 #include "tests/support/long_runs.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tracking/video/made_video.h"
@@ -16,7 +16,6 @@
 namespace swarmsmith {
 namespace {
 
-using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 constexpr const char* kTopic = "/ceiling/image_raw";
@@ -277,7 +276,7 @@ TEST(DamagedDb3, IsRefusedByItsCause) {
            {"SQLite format 3", "is damaged"},
            {std::string("SQLite format 3\0", 16) + std::string(5000, '\1'), "is damaged"},
            {"no database, but text", "or no SQLite file"},
-           {bytes_of(folder / "run0.db3").substr(0, 20'000), "is damaged"}}) {
+           {whole_file(folder / "run0.db3").substr(0, 20'000), "is damaged"}}) {
     write_bytes(folder / "bad.db3", bytes);
     const ReadApart read = read_apart(folder / "bad.db3");
     expect_sane(read, folder / "bad.db3");
@@ -355,7 +354,7 @@ void try_hurt(int tries, ReadApart (*read)(const std::string&), std::uint64_t se
     for (int i = 0; i < 6; ++i)
       bag.add(kTopic, kImage, image_of(i).recorded, cdr_of(image_of(i)));
   }
-  files.emplace_back("run.db3", bytes_of(folder / "whole.db3"));
+  files.emplace_back("run.db3", whole_file(folder / "whole.db3"));
   int read_well = 0;
   for (int i = 0; i < tries; ++i) {
     const auto& [name, bytes] = files[static_cast<std::size_t>(i) % files.size()];

@@ -25,10 +25,11 @@ void expect_sane(const ReadVideo& video) {
     last = frame.number;
     time = frame.time_s;
   }
-  EXPECT_GE(video.damaged, 0);
+  const std::int64_t told = static_cast<std::int64_t>(video.frames.size()) + video.damaged;
+  const std::int64_t all = std::max(video.info.expected_frames, last + 1);
+  EXPECT_LE(told, all);
   if (!video.error) {
-    EXPECT_EQ(static_cast<std::int64_t>(video.frames.size()) + video.damaged,
-              std::max(video.info.expected_frames, last + 1));
+    EXPECT_EQ(told, all);
   }
 }
 
@@ -51,7 +52,7 @@ TEST(DamagedVideo, CutAnywhereGivesTheFramesBeforeOrASentence) {
   const TemporaryFolder folder;
   for (const Kind& kind : not_empty(kinds())) {
     make_video(folder / kind.name, even_times(kFrames, 20), kind.options);
-    const std::string bytes = bytes_of(folder / kind.name);
+    const std::string bytes = whole_file(folder / kind.name);
     std::size_t most = 0;
     for (std::size_t part = 1; part < 60; ++part) {
       write_bytes(folder / ("cut_" + kind.name), bytes.substr(0, bytes.size() * part / 60));
@@ -69,7 +70,7 @@ TEST(DamagedVideo, FlippedBytesGiveFramesOrASentence) {
   Rng rng(20261121);
   for (const Kind& kind : not_empty(kinds())) {
     make_video(folder / kind.name, even_times(kFrames, 20), kind.options);
-    const std::string bytes = bytes_of(folder / kind.name);
+    const std::string bytes = whole_file(folder / kind.name);
     std::int64_t shown = 0;
     std::int64_t damaged = 0;
     const int tries = times(40, 120);
@@ -98,7 +99,7 @@ TEST(DamagedVideo, LeavesOutWhatWasBuiltOnADamagedPicture) {
   const TemporaryFolder folder;
   // Key frames at 0, 20 and 40.
   make_video(folder / "a.mkv", even_times(60, 20), {.frame_rate = 20});
-  std::string bytes = bytes_of(folder / "a.mkv");
+  std::string bytes = whole_file(folder / "a.mkv");
   const ReadVideo whole = read_video(folder / "a.mkv");
   ASSERT_EQ(whole.frames.size(), 60U);
   // Into the middle of the frames, over some of them.
@@ -126,7 +127,7 @@ TEST(DamagedVideo, FoldersOfDamagedImages) {
     const std::filesystem::path images = folder / ending.substr(1);
     std::filesystem::create_directory(images);
     cv::imwrite((images / ("0" + ending)).string(), image);
-    const std::string bytes = bytes_of(images / ("0" + ending));
+    const std::string bytes = whole_file(images / ("0" + ending));
     constexpr int kTries = 150;
     for (int i = 1; i < kTries; ++i) {
       std::string hurt = bytes;

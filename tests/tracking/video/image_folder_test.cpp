@@ -1,8 +1,7 @@
-#include <gmock/gmock.h>
-
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tracking/video/made_video.h"
 #include "tracking/video/internal/image_folder.h"
@@ -10,8 +9,6 @@
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 void write_image(const std::filesystem::path& path, int number, ImageSize size = kMadeSize) {
   const auto pixels = numbered_picture(number, size);
@@ -130,7 +127,7 @@ TEST(ImageFolder, LeavesADamagedImageOutButKeepsItsPlace) {
   const TemporaryFolder folder;
   for (int i = 0; i < 5; ++i)
     write_image(folder / (std::to_string(i) + ".jpg"), i);
-  const std::string bytes = bytes_of(folder / "2.jpg");
+  const std::string bytes = whole_file(folder / "2.jpg");
   write_bytes(folder / "2.jpg", bytes.substr(0, bytes.size() / 2));
   const ReadVideo video = read_video(folder.path());
   ASSERT_FALSE(video.error);

@@ -1,11 +1,11 @@
 #include "tracking/video/internal/live_camera.h"
 
 #include <arpa/inet.h>
-#include <gmock/gmock.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tracking/video/made_video.h"
 #include "tracking/video/internal/camera_word.h"
@@ -14,7 +14,6 @@ namespace swarmsmith {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::HasSubstr;
 
 TEST(LiveCamera, KnowsItsWords) {
   for (const std::string word : {"camera:0", "opencv:x", "rtsp://host/a", "v4l2src ! appsink"})
@@ -31,32 +30,29 @@ TEST(LiveCamera, KnowsItsWords) {
 }
 
 TEST(LiveCamera, SaysThatThereIsNone) {
-  const auto camera = open_camera("camera:97");
-  ASSERT_FALSE(camera);
-  EXPECT_THAT(to_string(camera.error()), HasSubstr("camera:97: E_VIDEO_UNREADABLE: OpenCV cannot"));
+  EXPECT_THAT(complaint_of(open_camera("camera:97")),
+              HasSubstr("camera:97: E_VIDEO_UNREADABLE: OpenCV cannot"));
 }
 
 TEST(LiveCamera, PlaysAFileAsACameraWould) {
   const TemporaryFolder folder;
   make_video(folder / "a.mkv", even_times(25, 50), {.codec = "mjpeg", .frame_rate = 50});
-  auto camera = open_camera("opencv:" + (folder / "a.mkv").string());
-  ASSERT_TRUE(camera) << to_string(camera.error());
-  EXPECT_TRUE((*camera)->info().is_live);
-  EXPECT_EQ((*camera)->info().size, kMadeSize);
+  auto camera = value_of(open_camera("opencv:" + (folder / "a.mkv").string()));
+  EXPECT_TRUE(camera->info().is_live);
+  EXPECT_EQ(camera->info().size, kMadeSize);
   std::vector<double> times;
   std::int64_t shown = 0;
   while (true) {
-    const auto more = (*camera)->next();
-    ASSERT_TRUE(more) << to_string(more.error());
-    if (!*more) break;
-    const Frame& frame = (*camera)->frame();
+    const auto more = value_of(camera->next());
+    if (!more) break;
+    const Frame& frame = camera->frame();
     EXPECT_EQ(number_in(frame.gray), static_cast<int>(frame.number));
-    EXPECT_EQ((*camera)->color().bgr.size(), 3U * 160 * 96);
+    EXPECT_EQ(camera->color().bgr.size(), 3U * 160 * 96);
     EXPECT_TRUE(times.empty() || *frame.time_s > times.back());
     times.push_back(*frame.time_s);
     ++shown;
   }
-  EXPECT_EQ(shown + (*camera)->damaged_frames(), 25);
+  EXPECT_EQ(shown + camera->damaged_frames(), 25);
   ASSERT_GT(shown, 0);
   EXPECT_GT(times.back() - times.front(), 0.4) << "at its own rate: 25 frames at 50 a second";
 }
@@ -87,9 +83,9 @@ class SilentHost {
 TEST(LiveCamera, DoesNotWaitForEver) {
   const SilentHost host;
   const std::string word = "http://127.0.0.1:" + std::to_string(host.port()) + "/video";
-  const auto camera = open_camera(word, {.opening = milliseconds(200), .frame = milliseconds(200)});
-  ASSERT_FALSE(camera);
-  EXPECT_THAT(to_string(camera.error()), HasSubstr("no picture came within 0.2 s"));
+  EXPECT_THAT(
+      complaint_of(open_camera(word, {.opening = milliseconds(200), .frame = milliseconds(200)})),
+      HasSubstr("no picture came within 0.2 s"));
 }
 
 /// The host hangs up while the process ends: the thread that waited for it goes on just then.

@@ -1,7 +1,6 @@
 #include "tests/tracking/video/made_video.h"
 
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 namespace swarmsmith {
@@ -114,13 +113,6 @@ ReadVideo read_video(const std::string& word) {
   }
   read.damaged = (*source)->damaged_frames();
   return read;
-}
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 void write_bytes(const std::filesystem::path& path, const std::string& bytes) {

@@ -43,7 +43,6 @@ struct ReadVideo {
 };
 ReadVideo read_video(const std::string& word);
 
-std::string bytes_of(const std::filesystem::path& path);
 void write_bytes(const std::filesystem::path& path, const std::string& bytes);
 
 }  // namespace swarmsmith

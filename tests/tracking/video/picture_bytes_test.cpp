@@ -1,9 +1,8 @@
 #include "tracking/video/picture_bytes.h"
 
-#include <gmock/gmock.h>
-
 #include <cstdlib>
 
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tracking/video/made_video.h"
 
@@ -34,9 +33,8 @@ ColorImage read_back(const std::string& bytes, const std::string& ending) {
 TEST(PictureBytes, APngHasEveryBit) {
   for (const auto& [width, height] : {std::pair{64, 48}, std::pair{33, 17}, std::pair{1, 1}}) {
     const ColorImage image = painted(width, height);
-    const auto bytes = png_of(image);
-    ASSERT_TRUE(bytes) << to_string(bytes.error());
-    const ColorImage read = read_back(*bytes, ".png");
+    const auto bytes = value_of(png_of(image));
+    const ColorImage read = read_back(bytes, ".png");
     EXPECT_EQ(read.width, width);
     EXPECT_EQ(read.height, height);
     EXPECT_EQ(read.bgr, image.bgr);
@@ -48,7 +46,7 @@ TEST(PictureBytes, AJpegIsNearAndSmallerWhenWorse) {
   const auto good = jpeg_of(image, 90);
   const auto bad = jpeg_of(image, 20);
   ASSERT_TRUE(good && bad);
-  EXPECT_THAT(*good, testing::StartsWith("\xff\xd8"));
+  EXPECT_THAT(*good, StartsWith("\xff\xd8"));
   EXPECT_LT(bad->size(), good->size());
   const ColorImage read = read_back(*good, ".jpg");
   ASSERT_EQ(read.bgr.size(), image.bgr.size());
@@ -59,9 +57,7 @@ TEST(PictureBytes, AJpegIsNearAndSmallerWhenWorse) {
 }
 
 TEST(PictureBytes, APictureThatCannotBeIsASentence) {
-  const auto none = png_of(ColorImage{});
-  ASSERT_FALSE(none);
-  EXPECT_THAT(to_string(none.error()), testing::HasSubstr("cannot be encoded as png"));
+  EXPECT_THAT(complaint_of(png_of(ColorImage{})), HasSubstr("cannot be encoded as png"));
 }
 
 }  // namespace

@@ -1,15 +1,12 @@
-#include <gmock/gmock.h>
-
 #include <filesystem>
 
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tracking/video/made_video.h"
 #include "tests/tracking/video/written_rosbag2.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr BagTime kBegin = 1'732'391'823'000'000'000;
 constexpr BagTime kApart = 40'000'000;

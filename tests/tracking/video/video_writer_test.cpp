@@ -1,18 +1,15 @@
 #include "tracking/video/video_writer.h"
 
-#include <gmock/gmock.h>
-
 #include <array>
 #include <filesystem>
 #include <limits>
 
+#include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tracking/video/made_video.h"
 
 namespace swarmsmith {
 namespace {
-
-using testing::HasSubstr;
 
 std::string refusal(const std::string& path, ImageSize size, const VideoOptions& options) {
   const auto writer = VideoWriter::open(path, size, options);
@@ -24,7 +21,7 @@ TEST(VideoWriter, GivesTheSameBytesEachTime) {
   for (const std::string codec : {"h264", "mjpeg", "ffv1"}) {
     for (const std::string name : {"a.mkv", "b.mkv"})
       make_video(folder / name, uneven_times(20), {.codec = codec, .b_frames = 2});
-    EXPECT_EQ(bytes_of(folder / "a.mkv"), bytes_of(folder / "b.mkv")) << codec;
+    EXPECT_EQ(whole_file(folder / "a.mkv"), whole_file(folder / "b.mkv")) << codec;
   }
 }
 
@@ -32,10 +29,9 @@ TEST(VideoWriter, StandsUnderItsNameOnlyWhenItIsWhole) {
   const TemporaryFolder folder;
   const std::string path = folder / "run.mp4";
   {
-    auto writer = VideoWriter::open(path, kMadeSize, {});
-    ASSERT_TRUE(writer) << to_string(writer.error());
+    auto writer = value_of(VideoWriter::open(path, kMadeSize, {}));
     const auto pixels = numbered_picture(1);
-    ASSERT_TRUE(writer->write(gray_image(pixels), 0));
+    ASSERT_TRUE(writer.write(gray_image(pixels), 0));
     EXPECT_FALSE(std::filesystem::exists(path));
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "what is not finished is removed";
@@ -59,9 +55,8 @@ TEST(VideoWriter, RefusesTimesThatTheFileCannotCarry) {
   const auto pixels = numbered_picture(3);
   auto even_only = VideoWriter::open(folder / "a.avi", kMadeSize, {.codec = "mjpeg"});
   ASSERT_TRUE(even_only->write(gray_image(pixels), 0));
-  const auto uneven = even_only->write(gray_image(pixels), 0.08);
-  ASSERT_FALSE(uneven);
-  EXPECT_THAT(to_string(uneven.error()), HasSubstr("frame 1: an .avi has no times"));
+  EXPECT_THAT(complaint_of(even_only->write(gray_image(pixels), 0.08)),
+              HasSubstr("frame 1: an .avi has no times"));
 
   auto writer = VideoWriter::open(folder / "a.mkv", kMadeSize, {});
   ASSERT_TRUE(writer->write(gray_image(pixels), 1));
