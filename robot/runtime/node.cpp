@@ -218,6 +218,11 @@ void RobotNode::arm(const Order& order, const Now& now) {
   SWARMSMITH_ASSERT(!is_on() && !killed_, "no run begins in another, nor after a kill");
   const auto cycles =
       static_cast<std::int64_t>(std::llround(order.seconds / seconds_of(settings_.period)));
+  if (cycles < 1) {  // it would have no last cycle, and so no end
+    refused_ = fmt::format("a run of {} s is shorter than a cycle of {} s", order.seconds,
+                           seconds_of(settings_.period));
+    return;
+  }
   const TimePoint start = clock_at(order.at_unix_s, now);
   begin(order.run, order.seed.value_or(settings_.seed), cycles, {start, order.at_unix_s});
   phase_ = Phase::Armed;
