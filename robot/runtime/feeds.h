@@ -24,7 +24,7 @@ struct FeedSettings {
 /// such as one with a sensor that is off, counts as none: its feed grows old, and says why.
 class Feeds {
  public:
-  explicit Feeds(FeedSettings settings) : settings_(std::move(settings)) {}
+  explicit Feeds(FeedSettings settings);
 
   /// -infinity below 0.05 m, +infinity beyond the range. NaN is a missing sensor, not a free way.
   void hear(const RangesMessage& message);

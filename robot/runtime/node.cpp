@@ -58,6 +58,7 @@ double counted_time_s(std::int64_t cycle) {
 }  // namespace
 
 std::optional<Command> within_limits(const Command& command, double max_mps) {
+  SWARMSMITH_ASSERT(max_mps >= 0, "a limit of speeds is not negative");
   if (!(std::isfinite(command.left_mps) && std::isfinite(command.right_mps))) return std::nullopt;
   Command limited = command;
   limited.left_mps = std::clamp(command.left_mps, -max_mps, max_mps);
@@ -304,6 +305,7 @@ Decision RobotNode::decide(const Now& now) {
     phase_ = not_ready(now.clock).empty() ? Phase::Ready : Phase::Idle;
     return {};  // the robot may be carried or driven to its place
   }
+  SWARMSMITH_ASSERT(!is_on() || (clock_ && control_), "a run has a clock and a controller");
   if (is_on() && settings_.operator_gone > Duration::zero() &&
       now.clock - operator_heard_ > settings_.operator_gone) {
     fail(silence_of_operator(now));
@@ -389,6 +391,7 @@ Decision RobotNode::hold_and_count(const ControlClock::Beat& beat, const Now& no
 }
 
 Decision RobotNode::step(std::int64_t cycle, Duration late, const Now& now) {
+  SWARMSMITH_ASSERT(control_ && cycle > cycle_, "a controller is stepped once in a cycle");
   cycle_ = cycle;
   SensedSenses senses(sensed_);
   const Command wanted = control_->step(senses);
@@ -489,6 +492,8 @@ Decision RobotNode::step_counted(const Now& now) {
 }
 
 void RobotNode::end(Phase phase) {
+  SWARMSMITH_ASSERT(phase == Phase::Ended || phase == Phase::Stopped || phase == Phase::Failed,
+                    "after its end a run is not on");
   phase_ = phase;
   driver_.end();
   judge();
@@ -509,6 +514,8 @@ void RobotNode::fail(const std::string& why) {
 }
 
 void RobotNode::disarm(const std::string& why) {
+  // An idle node commands nothing: one that ran would leave its treads as they are.
+  SWARMSMITH_ASSERT(phase_ == Phase::Armed, "a run that has begun is stopped, not called off");
   refused_ = why;
   run_.clear();
   driver_.end();
@@ -534,6 +541,7 @@ void RobotNode::judge() {
   if (!broken_.empty()) add(RunVerdict::Invalid, broken_);
   if (log_lost_) add(RunVerdict::Invalid, "the log is not whole: " + log_trouble_);
   if (clock_ && clock_->cycles() > 0) {
+    SWARMSMITH_ASSERT(held_ + skipped_ <= clock_->cycles(), "no cycle comes after the last one");
     const double share = static_cast<double>(skipped_) / static_cast<double>(clock_->cycles());
     if (share > kDegraded) {
       add(share > kInvalid ? RunVerdict::Invalid : RunVerdict::Degraded,
