@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/assert.h"
 #include "base/local_secret.h"
 #include "base/log.h"
 #include "base/plain_text.h"
@@ -88,6 +89,7 @@ struct Arguments {
 /// Drains when standard input ends. A thread does nothing but wait for that: a signal that ends
 /// the process does not have to wait for it.
 void watch_input() {
+  SWARMSMITH_ASSERT(g_wakeup != nullptr, "signals are handled before the input is watched");
   // The reader at the other end has gone first: no reason not to drain.
   std::signal(SIGPIPE, SIG_IGN);
   std::thread([] {
