@@ -133,6 +133,7 @@ void Scheduler::dispatch_wanted(TimePoint now) {
   // is alone may have it all: its slots share what it holds.
   const auto remaining =
       static_cast<std::int64_t>(book_->leases.wanted_ready() + book_->leases.wanted_leased());
+  SWARMSMITH_ASSERT(workers_->slots() > 0, "a worker that is trusted has a slot");
   const std::int64_t parts = workers_->trusted() > 1 ? 2 * workers_->slots() : workers_->slots();
   const std::int64_t share = std::max<std::int64_t>(1, (remaining + parts - 1) / parts);
   in_turn(book_->leases.loads().with_room(), turn_,
@@ -160,6 +161,7 @@ void Scheduler::dispatch_alone(TimePoint now) {
     entry.reserved = true;
     if (!book_->leases.leases_of(number).empty()) continue;
     TaskRecord* record = book_->leases.next_alone();
+    SWARMSMITH_ASSERT(record != nullptr, "workers are kept free for a task that is there");
     book_->leases.grant(*record, number, now, cost_us(record->task.campaign));
     SendTasks message{entry.peer, entry.hello.incarnation, {}};
     put_task(entry, *record, message, now);
@@ -240,7 +242,8 @@ Duration Scheduler::copy_time(std::uint32_t campaign) const {
 }
 
 /// The oldest tasks that are out for suspiciously long, once more each: one slow, stopped or cut
-/// off worker does not hold up a step. Whichever result comes first is taken.
+/// off worker does not hold up a step. Whichever result comes first is taken (orchestration facts,
+/// 5 "Stragglers").
 void Scheduler::copy_stragglers(TimePoint now) {
   if (book_->leases.loads().with_idle().empty() || book_->leases.leased() == 0) return;
   Duration least = copy_time(0);
@@ -293,8 +296,8 @@ void Scheduler::dispatch_ahead(TimePoint now) {
           [&](WorkerNumber number) { return fill_ahead(*workers_->of_number(number), now); });
 }
 
-/// Only to slots that would idle: what is wanted next never waits behind a queue of it. False when
-/// none is left.
+/// Only to slots that would idle: what is wanted next never waits behind a queue of it
+/// (orchestration facts, 10 "Look-ahead"). False when none is left.
 bool Scheduler::fill_ahead(WorkerEntry& entry, TimePoint now) {
   if (is_kept_free(entry)) return true;
   const bool elsewhere = workers_->trusted() > 1;
