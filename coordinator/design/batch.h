@@ -20,7 +20,7 @@ class Batch {
   /// Nothing is put or awaited yet.
   explicit Batch(std::vector<Experiment> experiments);
 
-  void put(std::size_t position, const StoredScore& score) { scores_[position] = score; }
+  void put(std::size_t position, const StoredScore& score);
   void await(std::size_t position, const EvaluationKey& key);
   /// The outcome of one that is awaited; its score.
   StoredScore answer(const Outcome& outcome);

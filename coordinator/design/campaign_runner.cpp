@@ -28,8 +28,11 @@ CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
     }
     plan.commands = commands_to(id, commands);
     auto known = stored.extract(id);
-    waiting_.emplace(id,
-                     Waiting{std::move(plan), known ? std::move(known.mapped()) : StoredDesign{}});
+    const bool is_new = waiting_
+                            .emplace(id, Waiting{std::move(plan), known ? std::move(known.mapped())
+                                                                        : StoredDesign{}})
+                            .second;
+    SWARMSMITH_ASSERT(is_new, "a design is planned once");
   }
   // It may have been finished before.
   if (waits_for_extension(commands)) rows_.emplace_back(CampaignStateRow{.state = "running"});
@@ -41,7 +44,7 @@ std::vector<Task> CampaignRunner::take_tasks() {
 }
 
 /// One pair ahead costs little, since most tests drop none; a further design costs nothing but
-/// memory; more pairs ahead may be for nothing.
+/// memory; more pairs ahead may be for nothing (orchestration facts, 10).
 std::vector<Task> CampaignRunner::take_more(std::size_t count, std::size_t slots) {
   std::vector<Task> more = take_tasks();
   open_more(count, std::min(most_.at_most, slots / kSlotsOfADesign), more);
@@ -118,10 +121,12 @@ void CampaignRunner::advance(DesignRunner& design) {
 
 void CampaignRunner::put_away(DesignId id) {
   auto ended = open_.extract(id);
+  SWARMSMITH_ASSERT(!ended.empty(), "a design that is over was open");
   std::ranges::copy(ended.mapped().take_dropped(), std::back_inserter(dropped_));
   if (ended.mapped().state() != DesignState::Finished) return forget(ended.mapped());
   kept_.insert(std::move(ended));
   kept_order_.push_back(id);
+  SWARMSMITH_ASSERT(kept_order_.size() == kept_.size(), "each that is kept has its turn to go");
   while (keeps_too_many()) {
     forget(kept_.extract(kept_order_.front()).mapped());
     kept_order_.erase(kept_order_.begin());

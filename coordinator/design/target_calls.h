@@ -18,7 +18,7 @@ class TargetCalls {
   /// The call to be made now; nothing while one is on its way.
   std::optional<Task> next();
   /// The call that was on its way was made.
-  void finish() { is_calling_ = false; }
+  void finish();
 
   /// The pair of the race's task with this number, from 1 through all its iterations.
   std::int64_t pair_in_race(std::int64_t task);
