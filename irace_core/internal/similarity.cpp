@@ -49,6 +49,8 @@ Prepared prepare(const ParameterSpace& space, const Configuration& configuration
 /// Rounding of the positions must not decide at the threshold itself.
 bool near(const Prepared& a, const Prepared& b, double threshold) {
   constexpr double kRounding = 1e-15;
+  SWARMSMITH_ASSERT(a.positions.size() == b.positions.size(),
+                    "where the choices agree, the same numbers are active");
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
     if (std::fabs(a.positions[i] - b.positions[i]) > threshold + kRounding) return false;
   }
