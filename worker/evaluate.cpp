@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/assert.h"
 #include "proto/scenario/scenario.h"
 #include "worker/simulation_evaluator.h"
 
@@ -14,6 +15,7 @@ using SharedScenario = std::shared_ptr<const WorkerScenario>;
 
 /// Passes each item to the evaluator of its campaign.
 Evaluator by_campaign(std::vector<Evaluator> evaluators) {
+  SWARMSMITH_ASSERT(!evaluators.empty(), "a scenario without campaigns was an error before");
   if (evaluators.size() == 1) return std::move(evaluators.front());
   return [evaluators = std::move(evaluators)](const LeasedTask& item) -> Result {
     const std::uint32_t campaign = campaign_of(item.key);

@@ -5,6 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "base/assert.h"
+
 namespace swarmsmith {
 
 Result evaluate(const Evaluator& evaluator, const LeasedTask& item) {
@@ -28,6 +30,7 @@ Result evaluate(const Evaluator& evaluator, const LeasedTask& item) {
 
 Pool::Pool(int slots, EvaluatorFactory make_evaluator, std::function<void()> wake)
     : slots_(slots), make_evaluator_(std::move(make_evaluator)), wake_(std::move(wake)) {
+  SWARMSMITH_ASSERT(slots_ >= 1, "a worker evaluates something");
   for (int slot = 0; slot < slots_; ++slot) {
     threads_.emplace_back(
         [this, slot](const std::stop_token& stop) { work(stop, static_cast<std::size_t>(slot)); });
@@ -75,6 +78,7 @@ std::vector<PackedKey> Pool::take_back() {
 
 std::vector<PoolEvent> Pool::take_events() {
   const std::scoped_lock lock(mutex_);
+  SWARMSMITH_ASSERT(results_ <= events_.size(), "results are among what slots did");
   owner_comes_ = results_ > 0;
   results_ = 0;
   return std::exchange(events_, {});
@@ -97,6 +101,7 @@ void Pool::work(const std::stop_token& stop, std::size_t slot) {
       number = generation_;
       events_.emplace_back(ItemStarted{item.key});
     }
+    SWARMSMITH_ASSERT(slot < generation->evaluators.size(), "each slot has its evaluator");
     finish(number, evaluate(generation->evaluators[slot], item));
   }
 }
@@ -105,6 +110,7 @@ void Pool::finish(std::uint64_t generation, Result result) {
   bool wake = false;
   {
     const std::scoped_lock lock(mutex_);
+    SWARMSMITH_ASSERT(running_ > 0, "what is finished was running");
     --running_;
     if (generation != generation_) return;
     events_.emplace_back(std::move(result));

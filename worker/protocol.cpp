@@ -21,6 +21,9 @@ WorkerProtocol::WorkerProtocol(WorkerIdentity identity, WorkerOptions options, R
       backoff_(options_.first_backoff) {
   SWARMSMITH_ASSERT(identity_.slots >= 1, "a worker evaluates something");
   SWARMSMITH_ASSERT(options_.first_backoff <= options_.longest_backoff, "pauses grow");
+  SWARMSMITH_ASSERT(options_.results_per_message >= 1 &&
+                        options_.results_per_message <= std::size_t{kMaxItemsPerMessage},
+                    "a message has a result, and no more than the wire takes");
 }
 
 std::vector<WorkerAction> WorkerProtocol::take_actions() {
@@ -28,6 +31,7 @@ std::vector<WorkerAction> WorkerProtocol::take_actions() {
 }
 
 void WorkerProtocol::start(TimePoint now) {
+  SWARMSMITH_ASSERT(state_ == State::Waiting && incarnation_ == 0, "a worker starts once");
   alone_since_ = now;
   ticked_ = now;
   greet(now);
@@ -82,7 +86,8 @@ void WorkerProtocol::lose(TimePoint now) {
   SWARMSMITH_ASSERT(state_ == State::Greeting || state_ == State::Active, "there is one to lose");
   if (state_ == State::Active) alone_since_ = now;
   state_ = State::Waiting;
-  // Random, so that a thousand workers do not all reconnect at the same time.
+  // Random, so that a thousand workers do not all reconnect at the same time
+  // (orchestration facts, 5 "A worker alone").
   const double factor = jitter_.uniform(0.5, 1.5);
   retry_ =
       now + Duration(static_cast<std::int64_t>(factor * static_cast<double>(backoff_.count())));
@@ -122,8 +127,11 @@ void WorkerProtocol::handle(const pb::ToWorker& message, TimePoint now) {
       if (current) on_tasks(message.tasks(), now);
       return;
     case pb::ToWorker::kAcknowledged:
-      for (const pb::Key& key : message.acknowledged().keys())
-        finished_.erase(*pack(key));
+      for (const pb::Key& wanted : message.acknowledged().keys()) {
+        const std::optional<PackedKey> key = pack(wanted);
+        SWARMSMITH_ASSERT(key, "keys are checked where a frame is read");
+        finished_.erase(*key);
+      }
       return;
     case pb::ToWorker::kScenario:
       if (current) on_scenario(message.scenario(), now);
@@ -224,7 +232,8 @@ void WorkerProtocol::on_drain(TimePoint now) {
   flush(now);
 }
 
-/// Leaves when nothing runs and all results are on the coordinator's disk, or the time is up.
+/// Leaves when nothing runs and all results are on the coordinator's disk, or the time is up
+/// (orchestration facts, 5 "Drain").
 void WorkerProtocol::finish_draining(TimePoint now) {
   if (state_ != State::Active) return;
   SWARMSMITH_ASSERT(drain_until_, "only a worker that drains finishes draining");
@@ -250,7 +259,8 @@ void WorkerProtocol::say_goodbye(TimePoint now, const std::string& reason) {
 // --- time ---
 
 void WorkerProtocol::on_tick(TimePoint now) {
-  // This process was stopped or got no processor time, so it could not receive anything.
+  // This process was stopped or got no processor time, so it could not receive anything:
+  // silence is measured by its clock (orchestration facts, 5 "Heartbeats, both ways").
   if (now - ticked_ > dead_after_ / 2) last_heard_ = now;
   ticked_ = now;
   if (state_ != State::Left) begin_alone(now);

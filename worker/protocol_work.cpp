@@ -16,7 +16,9 @@ void WorkerProtocol::on_tasks(const pb::Tasks& tasks, TimePoint now) {
   RunItems run;
   std::vector<PackedKey> refused;
   for (const pb::Task& task : tasks.tasks()) {
-    const PackedKey key = *pack(task.key());
+    const std::optional<PackedKey> packed = pack(task.key());
+    SWARMSMITH_ASSERT(packed, "keys are checked where a frame is read");
+    const PackedKey key = *packed;
     if (const auto finished = finished_.find(key); finished != finished_.end()) {
       Result& known = finished->second.result;
       const bool again = !known.failure.empty() && task.attempt() > known.attempt;
@@ -79,6 +81,7 @@ void WorkerProtocol::on_evaluated(Result result, TimePoint now) {
   // The values of its latest lease: it may have been leased to this worker again in the meantime.
   result.attempt = held->second.attempt;
   result.signature = held->second.signature;
+  SWARMSMITH_ASSERT(result.measured.wall_us >= 0, "slots measure by a clock that never goes back");
   count_busy(held->second, result.measured.wall_us, now);
   held_.erase(held);
   const auto spent_us = static_cast<double>(result.measured.wall_us);
@@ -131,6 +134,8 @@ void WorkerProtocol::send_results(std::span<const PackedKey> keys, TimePoint now
   if (results.results_size() > 0) send(message, now);
 }
 
+/// What was not acknowledged may never have come (orchestration facts, 5 "Acknowledged after the
+/// commit").
 void WorkerProtocol::resend(TimePoint now) {
   while (!sent_.empty() && now - sent_.front().first >= resend_after_) {
     const auto [when, key] = sent_.front();
@@ -154,7 +159,8 @@ void WorkerProtocol::on_taken_back(std::span<const PackedKey> keys, TimePoint no
   if (drain_until_) finish_draining(now);
 }
 
-/// Two tasks per slot, plus the number of tasks that fit in `work_ahead`.
+/// Two tasks per slot, plus the number of tasks that fit in `work_ahead`
+/// (orchestration facts, 5 "Credit").
 std::uint32_t WorkerProtocol::credit() const {
   if (drain_until_ || !has_scenario_ || finished_.size() > options_.max_unacknowledged) return 0;
   const double ahead_us = std::chrono::duration<double, std::micro>(options_.work_ahead).count();

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/assert.h"
 #include "sim/control/controller.h"
 #include "sim/control/flavour.h"
 #include "sim/engine/simulate.h"
@@ -21,7 +22,9 @@ class Simulation {
   Simulation(WorkerScenario scenario, std::vector<Flavour> flavours)
       : scenario_(std::move(scenario)),
         flavours_(std::move(flavours)),
-        controllers_(flavours_.size()) {}
+        controllers_(flavours_.size()) {
+    SWARMSMITH_ASSERT(flavours_.size() == scenario_.methods.size(), "each method has its flavour");
+  }
 
   Result operator()(const LeasedTask& item) {
     Expected<Result> result = simulate_item(item);

@@ -10,6 +10,7 @@
 #include <random>
 #include <string_view>
 
+#include "base/assert.h"
 #include "base/usable_processors.h"
 
 namespace swarmsmith {
@@ -71,6 +72,8 @@ int available_slots() {
 }
 
 WorkerIdentity identity_of_this_process(int slots, std::string build) {
+  SWARMSMITH_ASSERT(slots >= 1 && slots <= static_cast<int>(kMaxSlots),
+                    "the wire takes so many slots");
   // A unique name for this process, so it is not drawn from the campaign's random streams.
   std::random_device device;
   std::string id;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/hash.h"
 #include "programs/cost.h"
 #include "programs/runner.h"
@@ -157,6 +158,7 @@ Expected<std::string> allowed_program(const std::string& path) {
 Expected<Evaluator> make_target_evaluator(std::shared_ptr<const WorkerScenario> scenario,
                                           const AllowedPrograms& allowed,
                                           std::shared_ptr<const Interrupt> interrupt) {
+  SWARMSMITH_ASSERT(interrupt != nullptr, "what runs can be ended");
   if (!scenario->target) return bad_input("a scenario without programs");
   Programs programs(std::move(scenario), allowed, std::move(interrupt));
   if (auto fine = programs.check_all(); !fine) return Unexpected(fine.error());

@@ -20,7 +20,7 @@ class Batch {
   /// No experiment has a score or is awaited yet.
   explicit Batch(std::vector<Experiment> experiments);
 
-  void put(std::size_t position, const StoredScore& score) { scores_[position] = score; }
+  void put(std::size_t position, const StoredScore& score);
   void await(std::size_t position, const EvaluationKey& key);
   /// The outcome of an awaited experiment has come; returns its score.
   StoredScore answer(const Outcome& outcome);

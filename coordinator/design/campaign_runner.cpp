@@ -28,8 +28,11 @@ CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
     }
     plan.commands = commands_to(id, commands);
     auto known = stored.extract(id);
-    waiting_.emplace(id,
-                     Waiting{std::move(plan), known ? std::move(known.mapped()) : StoredDesign{}});
+    const bool is_new = waiting_
+                            .emplace(id, Waiting{std::move(plan), known ? std::move(known.mapped())
+                                                                        : StoredDesign{}})
+                            .second;
+    SWARMSMITH_ASSERT(is_new, "a design is planned once");
   }
   // The campaign may have been finished before.
   if (waits_for_extension(commands)) rows_.emplace_back(CampaignStateRow{.state = "running"});
@@ -41,7 +44,8 @@ std::vector<Task> CampaignRunner::take_tasks() {
 }
 
 /// The order is by cost: looking one pair ahead costs little, because most tests drop no candidate;
-/// another design costs only memory; evaluations on further pairs may turn out to be useless.
+/// another design costs only memory; evaluations on further pairs may turn out to be useless
+/// (orchestration facts, 10).
 std::vector<Task> CampaignRunner::take_more(std::size_t count, std::size_t slots) {
   std::vector<Task> more = take_tasks();
   open_more(count, std::min(most_.at_most, slots / kSlotsOfADesign), more);
@@ -118,10 +122,12 @@ void CampaignRunner::advance(DesignRunner& design) {
 
 void CampaignRunner::put_away(DesignId id) {
   auto ended = open_.extract(id);
+  SWARMSMITH_ASSERT(!ended.empty(), "a design that is over was open");
   std::ranges::copy(ended.mapped().take_dropped(), std::back_inserter(dropped_));
   if (ended.mapped().state() != DesignState::Finished) return forget(ended.mapped());
   kept_.insert(std::move(ended));
   kept_order_.push_back(id);
+  SWARMSMITH_ASSERT(kept_order_.size() == kept_.size(), "each that is kept has its turn to go");
   while (keeps_too_many()) {
     forget(kept_.extract(kept_order_.front()).mapped());
     kept_order_.erase(kept_order_.begin());

@@ -51,6 +51,7 @@ void CommandLog::add(const CommandRow& command) {
 }
 
 const CommandRow* CommandLog::next(CommandKind kind, std::int64_t steps) const {
+  SWARMSMITH_ASSERT(acted_ <= commands_.size(), "those that acted are among all");
   const auto next = commands_.begin() + static_cast<std::ptrdiff_t>(acted_);
   if (next == commands_.end()) return nullptr;
   if (next->step) return next->kind == kind && *next->step == steps ? &*next : nullptr;

@@ -28,6 +28,7 @@ void EliteTests::test_all(std::vector<std::int64_t> given) {
 /// race only by chance.
 Experiment EliteTests::run(std::int64_t candidate, std::int64_t pair) const {
   SWARMSMITH_ASSERT(plan_.count > 0 && pair >= 1, "tests count from 1");
+  SWARMSMITH_ASSERT(plan_.on_test_instances || n_instances_ >= 1, "a test is on an instance");
   const std::int64_t test = (pair - 1) % plan_.count + 1;
   Rng rng = Rng(seed_).split("test", static_cast<std::uint64_t>(test));
   return {.configuration = candidate,

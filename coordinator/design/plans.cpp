@@ -84,6 +84,7 @@ Expected<std::vector<DesignPlan>> plans_of(const Campaign& campaign) {
     for (std::size_t method = 0; method < campaign.methods.size(); ++method) {
       const std::int64_t repetitions = repetitions_of(campaign, campaign.methods[method]);
       for (std::int64_t repetition = 1; repetition <= repetitions; ++repetition) {
+        SWARMSMITH_ASSERT(plans.size() < rows.size(), "each plan has its row");
         const DesignRow& row = rows[plans.size()];
         SWARMSMITH_ASSERT(row.mission == campaign.missions[mission].mission.name &&
                               row.method == campaign.methods[method].name &&

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/assert.h"
 #include "programs/cost.h"
 
 namespace swarmsmith {
@@ -74,6 +75,7 @@ void RowRecorder::record_iteration(const IterationStarted& started) {
 }
 
 Expected<void> RowRecorder::record_step(const RaceStep& step) {
+  SWARMSMITH_ASSERT(step.experiments_used >= design_.used, "what was used stays used");
   design_.used = step.experiments_used;
   design_.best = candidate(step.best);
   design_.best_mean = to_score(step.mean_best);

@@ -15,6 +15,11 @@ std::optional<Task> TargetCalls::next() {
   return call;
 }
 
+void TargetCalls::finish() {
+  SWARMSMITH_ASSERT(is_calling_, "a call is over once, and only when it was given");
+  is_calling_ = false;
+}
+
 std::int64_t TargetCalls::pair_in_race(std::int64_t task) {
   SWARMSMITH_ASSERT(task >= 1 && tests_ >= 0, "calls count from 1, and never back");
   const std::int64_t pair = task + tests_;

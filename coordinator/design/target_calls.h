@@ -18,7 +18,7 @@ class TargetCalls {
   /// The call to make now; none while another call is running.
   std::optional<Task> next();
   /// The running call has finished.
-  void finish() { is_calling_ = false; }
+  void finish();
 
   /// The pair for the race's task with this number, counted from 1 over all iterations.
   std::int64_t pair_in_race(std::int64_t task);

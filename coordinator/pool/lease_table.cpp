@@ -68,6 +68,7 @@ void LeaseTable::remove(PackedKey key, WorkerNumber by) {
   SWARMSMITH_ASSERT(at != records_.end(), "a task that is removed is in the table");
   TaskRecord& record = at->second;
   if (!record.lease) {
+    SWARMSMITH_ASSERT(!record.second, "a second copy stands beside a first lease");
     leave_queue(record);
   } else {
     for (const std::optional<Lease>* lease : {&record.second, &record.lease}) {

@@ -134,6 +134,7 @@ void Scheduler::dispatch_wanted(TimePoint now) {
   // A single worker may have all tasks, because its slots share them.
   const auto remaining =
       static_cast<std::int64_t>(book_->leases.wanted_ready() + book_->leases.wanted_leased());
+  SWARMSMITH_ASSERT(workers_->slots() > 0, "a worker that is trusted has a slot");
   const std::int64_t parts = workers_->trusted() > 1 ? 2 * workers_->slots() : workers_->slots();
   const std::int64_t share = std::max<std::int64_t>(1, (remaining + parts - 1) / parts);
   in_turn(book_->leases.loads().with_room(), turn_,
@@ -161,6 +162,7 @@ void Scheduler::dispatch_alone(TimePoint now) {
     entry.reserved = true;
     if (!book_->leases.leases_of(number).empty()) continue;
     TaskRecord* record = book_->leases.next_alone();
+    SWARMSMITH_ASSERT(record != nullptr, "workers are kept free for a task that is there");
     book_->leases.grant(*record, number, now, cost_us(record->task.campaign));
     SendTasks message{entry.peer, entry.hello.incarnation, {}};
     put_task(entry, *record, message, now);
@@ -242,7 +244,8 @@ Duration Scheduler::copy_time(std::uint32_t campaign) const {
 }
 
 /// Leases the oldest tasks that have been out suspiciously long once more, so that one slow,
-/// stopped or disconnected worker does not delay a step. The first result is accepted.
+/// stopped or disconnected worker does not delay a step. The first result is accepted
+/// (orchestration facts, 5 "Stragglers").
 void Scheduler::copy_stragglers(TimePoint now) {
   if (book_->leases.loads().with_idle().empty() || book_->leases.leased() == 0) return;
   Duration least = copy_time(0);
@@ -296,7 +299,8 @@ void Scheduler::dispatch_ahead(TimePoint now) {
 }
 
 /// Leases look-ahead only to slots that would idle, so that wanted tasks never wait behind it.
-/// Returns false if there is no look-ahead left.
+/// Returns false if there is no look-ahead left
+/// (orchestration facts, 10 "Look-ahead").
 bool Scheduler::fill_ahead(WorkerEntry& entry, TimePoint now) {
   if (is_kept_free(entry)) return true;
   const bool elsewhere = workers_->trusted() > 1;

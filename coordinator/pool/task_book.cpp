@@ -102,6 +102,7 @@ void TaskBook::learn(std::uint32_t campaign, std::int64_t wall_us) {
 }
 
 double TaskBook::estimate_us_of(std::uint32_t campaign) const {
+  SWARMSMITH_ASSERT(campaign < estimates_us_.size(), "leases are of campaigns that run here");
   const double own = estimates_us_[campaign];
   return own > 0 ? own : estimate_us;
 }

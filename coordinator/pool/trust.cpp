@@ -201,8 +201,9 @@ void Trust::audit(const TaskRecord& record, const WorkerEntry& entry, const Resu
 
 void Trust::update_room(Principal& principal) {
   for (const WorkerNumber number : principal.workers) {
-    WorkerEntry& entry = *workers_->of_number(number);
-    set_credit(entry, entry.credit);
+    WorkerEntry* entry = workers_->of_number(number);
+    SWARMSMITH_ASSERT(entry != nullptr, "a worker that is forgotten leaves its principal");
+    set_credit(*entry, entry->credit);
   }
 }
 

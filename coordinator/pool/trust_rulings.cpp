@@ -64,6 +64,8 @@ void Trust::rule_on_stray(TaskRecord& record) {
   cases_.open(record.task, std::nullopt, false);
 }
 
+/// A result may come again, since a worker sends it until it is acknowledged (orchestration facts,
+/// 5 "Duplicates").
 void Trust::on_repeated(WorkerEntry& entry, const Result& result) {
   ++book_->counters.duplicates;
   const DoneEntry* known = book_->done.find(result.key);

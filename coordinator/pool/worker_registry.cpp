@@ -69,6 +69,7 @@ void WorkerRegistry::disconnect(WorkerEntry& entry) {
     --quarantined_;
   } else {
     slots_ -= entry.hello.slots;
+    SWARMSMITH_ASSERT(slots_ >= 0, "the total has the slots of who is there");
   }
 }
 

@@ -6,7 +6,10 @@
 namespace swarmsmith::irace {
 
 std::optional<double> kendall_w(const RankTable& table, std::span<const std::size_t> columns) {
+  // Source: irace facts, 10.4.
   if (table.rows() < 2 || columns.size() < 2) return std::nullopt;
+  SWARMSMITH_ASSERT(static_cast<std::size_t>(table.columns()) == columns.size(),
+                    "ranks are those among the columns that are compared");
   const auto n = static_cast<double>(table.rows());
   const auto k = static_cast<double>(columns.size());
   double spread = 0;

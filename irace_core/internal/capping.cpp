@@ -41,6 +41,9 @@ double round_up(double value, std::int64_t digits) {
 }
 
 double candidate_bound(double elite_time, std::size_t task, double spent, const TimeRules& rules) {
+  SWARMSMITH_ASSERT(task >= 1 && elite_time > 0, "an elite took its time for each pair");
+  // Source: irace facts, 17. Who spent more than the elites is lost, and still gets a bound that is
+  // one.
   const double left = static_cast<double>(task) * elite_time + rules.min_measurable_time - spent;
   const double bound = left > 0 ? left : elite_time;
   return std::min(round_up(bound, rules.bound_digits), rules.bound_max);
@@ -64,6 +67,7 @@ std::vector<std::size_t> dominated(std::span<const double> means,
   // Source: irace facts, 17; the tolerance is irace's.
   constexpr double kTolerance = 1e-5;
   const auto few = static_cast<std::size_t>(min_survival);
+  SWARMSMITH_ASSERT(few >= 1, "somebody is the standard of the others");
   if (means.size() <= few) return {};
   std::vector<double> standard;
   for (const std::size_t i : elites)

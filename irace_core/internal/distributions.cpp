@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "base/math.h"
 
 namespace swarmsmith::irace {
@@ -11,6 +12,7 @@ constexpr double kVanishing = 1e-290;  // below this, probabilities lose digits
 
 TruncatedNormal::TruncatedNormal(double mean, double sd, double lower, double upper)
     : mean_(mean), sd_(sd), lower_(lower), upper_(upper), mirrored_(lower + upper > 2 * mean) {
+  SWARMSMITH_ASSERT(lower_ <= upper_ && sd_ >= 0, "draws lie between a lower and an upper end");
   if (sd_ < kNoSpread) return;
   const double a = (lower - mean) / sd;
   const double b = (upper - mean) / sd;

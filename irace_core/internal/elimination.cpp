@@ -16,6 +16,7 @@ namespace {
 
 /// The median of all pairwise means (d_a + d_b)/2, a <= b: Hodges and Lehmann's estimate.
 double pseudo_median(std::span<const double> differences) {
+  SWARMSMITH_ASSERT(!differences.empty(), "a median is of one value or more");
   std::vector<double> means;
   for (std::size_t a = 0; a < differences.size(); ++a) {
     for (std::size_t b = a; b < differences.size(); ++b) {
@@ -31,6 +32,7 @@ double pseudo_median(std::span<const double> differences) {
 /// defined there, `ties` is the sum(u^3 - u).
 double approximate_p(double v, double n, double ties) {
   const double variance = n * (n + 1) * (2 * n + 1) / 24 - ties / 48;
+  SWARMSMITH_ASSERT(variance > 0, "even equal ranks leave the signs to chance");
   double z = v - n * (n + 1) / 4;
   const double correction = z > 0 ? 0.5 : (z < 0 ? -0.5 : 0.0);
   z = (z - correction) / std::sqrt(variance);
@@ -89,11 +91,15 @@ TestResult friedman_test(const RankTable& table, std::span<const std::size_t> co
   const auto k = static_cast<double>(columns.size());
   double spread = 0;
   double square_sums = 0;
+  double rank_sums = 0;
   for (const std::size_t column : columns) {
     const double sum = table.rank_sum(column);
+    rank_sums += sum;
     spread += (sum - n * (k + 1) / 2) * (sum - n * (k + 1) / 2);
     square_sums += sum * sum;
   }
+  // Average ranks are multiples of 1/2, so that these sums are exact.
+  SWARMSMITH_ASSERT(rank_sums == n * k * (k + 1) / 2, "the ranks of a row are 1 to k, or shared");
   // Step 2: S. Ties are subtracted, since tied ranks vary less than different ones.
   TestResult result;
   result.statistic = 12 * spread / (n * k * (k + 1) - table.ties() / (k - 1));
@@ -101,6 +107,7 @@ TestResult friedman_test(const RankTable& table, std::span<const std::size_t> co
     result.p_value = std::numeric_limits<double>::quiet_NaN();
     return result;
   }
+  SWARMSMITH_ASSERT(result.statistic >= 0, "a sum of squares is not negative");
   // Step 3: S against chi-square with k - 1 degrees of freedom.
   result.p_value = chi_square_upper_tail(result.statistic, k - 1);
   // With a single pair there is no degree of freedom for comparing columns.
@@ -118,6 +125,7 @@ TestResult friedman_test(const RankTable& table, std::span<const std::size_t> co
   for (const std::size_t column : columns) {
     if (std::fabs(table.rank_sum(column) - best) > difference) result.dropped.push_back(column);
   }
+  SWARMSMITH_ASSERT(result.dropped.size() < columns.size(), "the best column survives");
   return result;
 }
 
@@ -189,6 +197,7 @@ TestResult paired_t_tests(std::span<const std::span<const double>> costs,
                           std::span<const double> means, std::span<const std::size_t> columns,
                           double alpha, TestType type) {
   SWARMSMITH_ASSERT(columns.size() >= 2 && costs.size() == columns.size(), "columns to compare");
+  SWARMSMITH_ASSERT(means.size() == columns.size(), "each column has its mean");
   // Step 1 of irace facts, 10.3. The best column's own p stays 1, so that no adjustment drops it.
   const auto best =
       static_cast<std::size_t>(std::min_element(means.begin(), means.end()) - means.begin());
@@ -198,6 +207,7 @@ TestResult paired_t_tests(std::span<const std::span<const double>> costs,
   TestResult result;
   for (std::size_t i = 0; i < columns.size(); ++i) {  // steps 2 and 3
     if (nearly_equal(means[best], means[i])) continue;
+    SWARMSMITH_ASSERT(costs[i].size() == rows, "all have the same pairs");
     const std::optional<double> t =
         paired_t(costs[best], means[best], costs[i], means[i], differences);
     p_values[i] = t ? student_t_two_sided_tail(*t, static_cast<double>(rows) - 1) : 0;

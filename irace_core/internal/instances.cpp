@@ -13,6 +13,8 @@ InstanceLog::InstanceLog(const Scenario& scenario, Rng rng)
 
 void InstanceLog::append(std::int64_t pairs) {
   constexpr std::int64_t kLargestSeed = 2147483647;
+  SWARMSMITH_ASSERT(instances_ >= 1 && instances_ % block_size_ == 0,
+                    "a scenario's instances are whole blocks");
   if (deterministic_ && !pairs_.empty()) return;
   const std::int64_t repetitions = deterministic_ ? 1 : (pairs + instances_ - 1) / instances_;
   std::vector<std::int64_t> blocks(static_cast<std::size_t>(instances_ / block_size_));

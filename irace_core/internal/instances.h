@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/assert.h"
 #include "base/rng.h"
 #include "irace_core/scenario.h"
 
@@ -29,6 +30,7 @@ class InstanceLog {
 
   std::int64_t size() const { return static_cast<std::int64_t>(pairs_.size()); }
   const Pair& operator[](std::int64_t pair) const {
+    SWARMSMITH_ASSERT(pair >= 1 && pair <= size(), "a pair is a row of the list, from 1");
     return pairs_[static_cast<std::size_t>(pair - 1)];
   }
   const Rng& rng() const { return rng_; }

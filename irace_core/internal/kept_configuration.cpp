@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/assert.h"
+
 namespace swarmsmith::irace {
 namespace {
 
@@ -59,6 +61,7 @@ void unpack(const std::string& packed, Configuration& configuration) {
       configuration.set(parameter++, kind);
     }
   }
+  SWARMSMITH_ASSERT(parameter == configuration.size(), "a packed configuration has all parameters");
 }
 
 std::size_t size_of(const std::string& packed) {

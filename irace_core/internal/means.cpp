@@ -2,9 +2,12 @@
 
 #include <cmath>
 
+#include "base/assert.h"
+
 namespace swarmsmith::irace {
 
 double mean_of(std::span<const double> values) {
+  SWARMSMITH_ASSERT(!values.empty(), "a mean is of one value or more");
   double sum = 0;
   double rest = 0;
   for (const double value : values) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "irace_core/internal/sampling.h"
 
@@ -14,12 +15,14 @@ void normalise(std::span<double> probabilities) {
   double sum = 0;
   for (const double p : probabilities)
     sum += p;
+  SWARMSMITH_ASSERT(sum > 0, "some value can be drawn");
   for (double& p : probabilities)
     p /= sum;
 }
 
 /// The last value gets the remainder of the sum that rounding leaves.
 std::size_t draw_choice(std::span<const double> probabilities, Rng& rng) {
+  SWARMSMITH_ASSERT(!probabilities.empty(), "a choice has a value");
   double left = rng.uniform();
   for (std::size_t i = 0; i + 1 < probabilities.size(); ++i) {
     left -= probabilities[i];
@@ -71,6 +74,10 @@ double initial_sd(const ParameterSpace& space, std::size_t parameter) {
 UpdateStrength update_strength(std::int64_t iteration, std::int64_t iterations,
                                std::int64_t new_configurations, int variable_parameters,
                                bool elitist) {
+  SWARMSMITH_ASSERT(1 <= iteration && iteration <= iterations,
+                    "an iteration is one of those planned");
+  SWARMSMITH_ASSERT(new_configurations >= 1 && variable_parameters >= 1,
+                    "a race has a new configuration, and something varies");
   const double root = 1.0 / variable_parameters;
   return {.fraction = static_cast<double>(iteration - 1) / static_cast<double>(iterations),
           .shrink = pow(1.0 / static_cast<double>(new_configurations), root),
@@ -81,6 +88,7 @@ UpdateStrength update_strength(std::int64_t iteration, std::int64_t iterations,
 /// and no other could be sampled again.
 void update_probabilities(std::span<double> probabilities, std::size_t chosen,
                           const UpdateStrength& strength) {
+  SWARMSMITH_ASSERT(chosen < probabilities.size(), "an elite has one of the values");
   for (double& p : probabilities)
     p *= 1 - strength.fraction;
   probabilities[chosen] += strength.fraction;
@@ -90,6 +98,7 @@ void update_probabilities(std::span<double> probabilities, std::size_t chosen,
   normalise(probabilities);
 }
 
+/// irace facts, 7.
 void restart_probabilities(std::span<double> probabilities) {
   const double largest = *std::max_element(probabilities.begin(), probabilities.end());
   for (double& p : probabilities)
@@ -108,6 +117,7 @@ double restart_sd(double sd, double initial, std::int64_t new_configurations,
 /// irace facts, 6.3: rank r gets E - r + 1 of E (E + 1) / 2 tickets. The arithmetic is in integers,
 /// so that rounding has no influence.
 std::size_t draw_parent(std::size_t elites, Rng& rng) {
+  SWARMSMITH_ASSERT(elites >= 1, "a parent is an elite");
   auto ticket = static_cast<std::int64_t>(rng.below(elites * (elites + 1) / 2));
   for (std::size_t rank = 0;; ++rank) {
     ticket -= static_cast<std::int64_t>(elites - rank);
@@ -199,6 +209,7 @@ void SamplingModels::restart(std::int64_t id, std::int64_t new_configurations) {
   }
 }
 
+/// irace facts, 6.4.
 double SamplingModels::draw(std::size_t parameter, const ParameterModel& model,
                             const Interval& domain, Rng& rng) const {
   const Domain& kind = (*space_)[parameter].domain;
@@ -206,6 +217,7 @@ double SamplingModels::draw(std::size_t parameter, const ParameterModel& model,
   if (std::isnan(model.mean)) return quantile_value(*space_, parameter, domain, rng.uniform());
   if (!space_->is_numeric(parameter)) {
     const auto last = static_cast<double>(space_->value_count(parameter) - 1);
+    SWARMSMITH_ASSERT(model.distribution, "the values of an ordinal depend on nothing");
     return std::min(last, std::floor(model.distribution->sample(rng)));
   }
   if (!model.distribution) {  // the domain depends on other parameters, and so does the spread

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/assert.h"
+
 namespace swarmsmith::irace {
 namespace {
 
@@ -33,6 +35,7 @@ std::vector<std::size_t> largest_set_that_fits(std::span<const std::int64_t> nee
     chosen.push_back(i);
     budget -= needs[i];
   }
+  SWARMSMITH_ASSERT(chosen.size() == size, "what completes a set still fits behind its members");
   return chosen;
 }
 

@@ -35,6 +35,7 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
                             static_cast<std::int64_t>(settings_.pairs.size()),
                     "new and past pairs lead the list");
   SWARMSMITH_ASSERT(settings_.pairs_between_tests >= 1, "tests come again");
+  SWARMSMITH_ASSERT(settings_.block_size >= 1, "a block has a pair");
   const auto new_pairs = static_cast<std::size_t>(settings_.new_pairs);
   for (std::size_t c = 0; c < contestants_.size(); ++c) {
     const std::vector<double>& past = contestants_[c].past;
@@ -163,6 +164,7 @@ void Race::take_evaluation(std::size_t column, double cost) {
   if (settings_.capping) {
     // A configuration that was not run in this task reached no bound in it.
     const bool ran = contains(open_->ran, column);
+    SWARMSMITH_ASSERT(!ran || times_[column].size() > progress_.task, "who was run has a time");
     cost = capped_cost(cost, ran ? times_[column][progress_.task] : 0,
                        ran ? open_->bounds[column] : settings_.bound_max, settings_.time_rules());
   }
@@ -217,11 +219,14 @@ void Race::close_task() {
   const bool dropped = step.marker == '-' || step.marker == 'c';
   if (counts) tests_without_drop_ = dropped ? 0 : tests_without_drop_ + 1;
   step.alive_after = static_cast<std::int64_t>(alive_.size());
+  SWARMSMITH_ASSERT(step.alive_after <= step.alive_before, "who is out of a race stays out");
   describe_agreement(step);
   step.digest = digest(step);
   steps_.push_back(std::move(step));
 }
 
+/// irace facts, 12: an infinite cost says that the configuration cannot be used at all, so that no
+/// result of it counts any more.
 void Race::reject_infinite(std::span<const std::size_t> columns, RaceStep& step) {
   std::vector<std::size_t> found;
   for (const std::size_t c : columns) {

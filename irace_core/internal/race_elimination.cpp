@@ -13,6 +13,8 @@ namespace {
 
 std::vector<std::size_t> united(const std::vector<std::size_t>& a,
                                 const std::vector<std::size_t>& b) {
+  SWARMSMITH_ASSERT(std::ranges::is_sorted(a) && std::ranges::is_sorted(b),
+                    "columns are given in ascending order");
   std::vector<std::size_t> both;
   std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
   return both;
@@ -133,7 +135,9 @@ void Race::add_ranked_row(std::size_t task) {
 }
 
 void Race::drop(const std::vector<std::size_t>& columns) {
-  std::erase_if(alive_, [&](std::size_t c) { return contains(columns, c); });
+  const std::size_t dropped =
+      std::erase_if(alive_, [&](std::size_t c) { return contains(columns, c); });
+  SWARMSMITH_ASSERT(dropped == columns.size(), "each of the dropped was alive until now");
   std::vector<bool> keeps(contestants_.size(), false);
   for (const std::size_t c : alive_)
     keeps[c] = true;

@@ -120,6 +120,7 @@ void IteratedRace::State::tell(std::span<const Measurement> measurements) {
     tell_estimate(*raised);
     return;
   }
+  SWARMSMITH_ASSERT(asked_.size() == raised->size(), "each question has its answer");
   for (std::size_t i = 0; i < asked_.size(); ++i)
     answers_[asked_[i]] = (*raised)[i];
   answer_race();
@@ -182,6 +183,8 @@ Expected<void> IteratedRace::State::begin_race() {
   if (!contestants) return Unexpected(contestants.error());
   for (const Elite& elite : elites)
     started.elites.push_back(elite.configuration);
+  SWARMSMITH_ASSERT(static_cast<std::int64_t>(contestants->size()) <= plan.configurations,
+                    "a race has no more configurations than it was planned for");
   irace::RaceSettings settings = settings_of(plan);
   started.new_pairs = settings.new_pairs;
   started.n_configurations = static_cast<std::int64_t>(contestants->size());

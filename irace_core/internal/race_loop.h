@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/assert.h"
 #include "base/rng.h"
 #include "irace_core/internal/instances.h"
 #include "irace_core/internal/kept_configuration.h"
@@ -187,9 +188,12 @@ class IteratedRace::State {
   /// the last iteration that has any left, otherwise the best of all others that were tried.
   void fall_back();
 
-  Candidate& candidate(std::int64_t id) { return candidates[static_cast<std::size_t>(id - 1)]; }
-  const Candidate& candidate(std::int64_t id) const {
-    return candidates[static_cast<std::size_t>(id - 1)];
+  Candidate& candidate(std::int64_t id) { return candidates[index_of(id)]; }
+  const Candidate& candidate(std::int64_t id) const { return candidates[index_of(id)]; }
+  std::size_t index_of(std::int64_t id) const {
+    SWARMSMITH_ASSERT(id >= 1 && id <= static_cast<std::int64_t>(candidates.size()),
+                      "ids are those of configurations that were made, from 1");
+    return static_cast<std::size_t>(id - 1);
   }
 
   Repair repair_;

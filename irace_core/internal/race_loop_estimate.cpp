@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/assert.h"
 #include "irace_core/expression.h"
 #include "irace_core/internal/capping.h"
 #include "irace_core/internal/race_loop.h"
@@ -91,6 +92,8 @@ void IteratedRace::State::tell_estimate(std::span<const Measurement> measurement
 }
 
 Expected<void> IteratedRace::State::end_batch(std::span<const Measurement> costs) {
+  SWARMSMITH_ASSERT(costs.size() == wanted.size() && estimate_->runs.size() == wanted.size(),
+                    "each run of the batch has its time and its cost");
   const irace::TimeRules rules = common_settings(0).time_rules();
   std::vector<std::pair<std::int64_t, std::int64_t>> evaluated;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -148,8 +151,11 @@ std::vector<Elite> IteratedRace::State::ranked(std::span<const std::int64_t> ids
   for (const std::int64_t id : ids) {
     auto& row = costs.emplace_back(static_cast<std::size_t>(pairs_seen_),
                                    std::numeric_limits<double>::quiet_NaN());
-    for (const Candidate::Result& result : candidate(id).results)
+    for (const Candidate::Result& result : candidate(id).results) {
+      SWARMSMITH_ASSERT(result.pair >= 1 && result.pair <= pairs_seen_,
+                        "results are of seen pairs");
       row[static_cast<std::size_t>(result.pair - 1)] = result.cost;
+    }
   }
   const std::vector<double> ranks = irace::overall_ranks(costs, test_type_of(scenario));
   std::vector<Elite> ranked;

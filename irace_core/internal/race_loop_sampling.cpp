@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/assert.h"
 #include "irace_core/internal/race_loop.h"
 #include "irace_core/internal/similarity.h"
 
@@ -100,11 +101,14 @@ Expected<std::vector<std::int64_t>> IteratedRace::State::later_contestants(
     ids.push_back(elite.configuration);
   for (Candidate& fresh : *sampled)
     ids.push_back(add(std::move(fresh), plan.iteration));
+  SWARMSMITH_ASSERT(static_cast<std::int64_t>(ids.size()) == plan.configurations,
+                    "elites and new ones fill the race");
   return ids;
 }
 
 Expected<std::vector<Candidate>> IteratedRace::State::sample_new(std::int64_t count, Rng& rng) {
   constexpr int kMostRounds = 100;
+  SWARMSMITH_ASSERT(!elites.empty(), "a race that leaves none is the last one");
   std::vector<Candidate> sampled;
   for (int round = 0; round < kMostRounds; ++round) {
     const std::int64_t missing = count - static_cast<std::int64_t>(sampled.size());

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/assert.h"
 #include "irace_core/internal/race.h"
 #include "irace_core/internal/ranking.h"
 
@@ -30,6 +31,7 @@ std::vector<Race::Result> Race::results(std::size_t column) const {
     const bool is_known = task >= first_past && task - first_past < past.size() &&
                           !std::isnan(past[task - first_past]);
     if (!is_known) {
+      SWARMSMITH_ASSERT(task < times_[column].size(), "what was run has a time, if only of 0");
       results.push_back({settings_.pairs[task], cost, times_[column][task], false});
     } else if (cost != past[task - first_past]) {
       results.push_back({settings_.pairs[task], cost, 0, true});

@@ -186,12 +186,16 @@ void Race::set_bounds() {
       spent += times_[c][before];
     bound = candidate_bound(*task.step.bound, progress_.task + 1, spent, settings_.time_rules());
   }
+  SWARMSMITH_ASSERT(
+      std::ranges::all_of(task.due, [&](std::size_t c) { return task.bounds[c] > 0; }),
+      "a bound of 0 would be none");
 }
 
 std::optional<double> Race::elite_time() const {
   std::vector<double> times;
   for (const std::size_t c : alive_) {
     if (progress_.protection[c] == 0) continue;
+    SWARMSMITH_ASSERT(times_[c].size() > progress_.task, "the elites are run before the others");
     times.push_back(settings_.bound_type == BoundType::Instance
                         ? times_[c][progress_.task]
                         : mean_of_first(times_[c], progress_.task + 1));

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "irace_core/internal/rounding.h"
 
@@ -39,6 +40,7 @@ bool is_whole(const Domain& domain) {
 
 double to_domain(const ParameterSpace& space, std::size_t parameter, const Interval& domain,
                  double drawn) {
+  SWARMSMITH_ASSERT(domain.lower <= domain.upper, "an empty domain was an error before");
   if (is_whole(space[parameter].domain)) {
     return std::clamp(std::floor(drawn), domain.lower, domain.upper);
   }
@@ -48,6 +50,7 @@ double to_domain(const ParameterSpace& space, std::size_t parameter, const Inter
 
 double quantile_value(const ParameterSpace& space, std::size_t parameter, const Interval& domain,
                       double p) {
+  SWARMSMITH_ASSERT(p >= 0 && p < 1, "a quantile lies in [0, 1)");
   if (!space.is_numeric(parameter)) {
     const auto count = static_cast<double>(space.value_count(parameter));
     return std::min(count - 1, std::floor(p * count));

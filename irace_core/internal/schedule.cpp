@@ -16,6 +16,7 @@ std::int64_t default_count(int variable_parameters) {
 
 std::int64_t race_size(const RaceSizeQuestion& q) {
   const std::int64_t te = q.pairs_between_tests;
+  SWARMSMITH_ASSERT(te >= 1, "tests come again");
   const std::int64_t pairs = (q.old_pairs + q.new_pairs + te - 1) / te * te;
   const std::int64_t cost = std::max(q.mu + te * std::min<std::int64_t>(5, q.iteration), pairs);
   SWARMSMITH_ASSERT(cost > 0, "a configuration costs experiments");
@@ -31,6 +32,7 @@ std::int64_t minimum_budget(const MinimumBudgetQuestion& q) {
     each = q.iterations > 5 ? q.mu + te + (q.iterations - 5) * q.new_pairs + 5 * step
                             : q.mu + te + (q.iterations - 1) * step;
   }
+  SWARMSMITH_ASSERT(each > 0, "a configuration costs experiments");
   const std::int64_t base = (q.min_survival + 1) * q.iterations;
   return base > kMost / each ? kMost : base * each;
 }
@@ -181,6 +183,8 @@ std::variant<RacePlan, NoMoreRaces> Schedule::plan(std::int64_t remaining, std::
     }
     const std::int64_t new_pairs = raced_ ? new_pairs_ : 0;
     raced_ = true;
+    SWARMSMITH_ASSERT(iteration_ <= iterations_ && new_pairs >= 0,
+                      "a race is one of those planned");
     return RacePlan{iteration_++, iterations_, budget, size, new_pairs};
   }
 }

@@ -53,6 +53,8 @@ Prepared prepare(const ParameterSpace& space, const Configuration& configuration
 /// The tolerance keeps rounding of the positions from deciding at the threshold.
 bool near(const Prepared& a, const Prepared& b, double threshold) {
   constexpr double kRounding = 1e-15;
+  SWARMSMITH_ASSERT(a.positions.size() == b.positions.size(),
+                    "where the choices agree, the same numbers are active");
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
     if (std::fabs(a.positions[i] - b.positions[i]) > threshold + kRounding) return false;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.h"
 #include "irace_core/internal/capping.h"
 #include "irace_core/internal/rounding.h"
 
@@ -16,9 +17,12 @@ TimeBudget::TimeBudget(const Scenario& scenario, std::int64_t pairs)
       digits_(scenario.bound_digits),
       pairs_(pairs),
       at_once_(std::max<std::int64_t>(1, scenario.parallel / pairs)),
-      first_(std::max<std::int64_t>(2, scenario.parallel / pairs)) {}
+      first_(std::max<std::int64_t>(2, scenario.parallel / pairs)) {
+  SWARMSMITH_ASSERT(pairs_ >= 1, "the estimate tries configurations on a pair or more");
+}
 
 void TimeBudget::count(double time) {
+  SWARMSMITH_ASSERT(time > 0, "a run without its time was an error before");
   ++runs_;
   used_ += time;
 }
@@ -46,6 +50,7 @@ std::int64_t TimeBudget::more_configurations(std::int64_t tried) const {
 }
 
 double TimeBudget::mean_time() const {
+  SWARMSMITH_ASSERT(runs_ > 0, "a mean is of one run or more");
   const double mean = used_ / static_cast<double>(runs_);
   return estimating_ ? std::max(round_up(mean, digits_), least_) : mean;
 }

@@ -36,6 +36,7 @@ std::int64_t most_runs_of(const AnnealingOptions& options) {
 
 /// The factor between the start temperature and the temperature after `used` runs.
 double cooled(const AnnealingOptions& options, std::int64_t budget, std::int64_t used) {
+  SWARMSMITH_ASSERT(options.start_temperature > 0, "what cools was warm");
   const auto walked = static_cast<double>(used - scale_runs_of(options));
   const auto all = static_cast<double>(budget - scale_runs_of(options) - 2 * options.final_runs);
   const double share = std::clamp(walked / all, 0.0, 1.0);
@@ -50,6 +51,7 @@ struct Walker {
   std::map<std::int64_t, double> costs;  ///< by pair
 
   double mean() const {
+    SWARMSMITH_ASSERT(!costs.empty(), "who walks was run");
     double sum = 0;
     for (const auto& [pair, cost] : costs)
       sum += cost;
@@ -95,6 +97,7 @@ class Annealing final : public Strategy {
   Verdict take(std::span<const double> costs) override {
     SWARMSMITH_ASSERT(costs.size() == runs_.size(), "a cost for each run");
     used_ += static_cast<std::int64_t>(costs.size());
+    SWARMSMITH_ASSERT(used_ <= budget_, "a search keeps to its budget");
     if (phase_ == Phase::Scale) return take_scale(costs);
     if (phase_ == Phase::Final) return take_final(costs);
     return take_step(costs);
@@ -173,6 +176,7 @@ class Annealing final : public Strategy {
   /// The window of pairs moves on by `moved`: the incumbent and the best are run only on the new
   /// pairs, the candidate on the whole window, so that all three are compared on the same pairs.
   Expected<std::optional<Round>> step_round(std::int64_t next_id) {
+    SWARMSMITH_ASSERT(phase_ == Phase::Walking, "steps come between the scale and the final stage");
     step_rng_ = rng_.split("perturb", static_cast<std::uint64_t>(++steps_));
     auto perturbed = neighbourhood_.perturb(incumbent_.configuration, step_rng_);
     if (!perturbed) return Unexpected(perturbed.error());
@@ -221,8 +225,8 @@ class Annealing final : public Strategy {
     return ended;
   }
 
-  /// The Metropolis criterion. The random number is drawn in any case, so that later draws do not
-  /// depend on the costs.
+  /// The criterion of Metropolis et al. (Journal of Chemical Physics 21, 1953). The random number
+  /// is drawn in any case, so that later draws do not depend on the costs.
   bool is_accepted() {
     const double draw = step_rng_.uniform();
     const double now = candidate_.mean();
@@ -250,6 +254,7 @@ class Annealing final : public Strategy {
 
   /// Runs incumbent and best on pairs after the last window: the lower mean wins.
   Expected<std::optional<Round>> final_round() {
+    SWARMSMITH_ASSERT(phase_ == Phase::Walking, "the final stage comes once, behind the steps");
     phase_ = Phase::Final;
     Round round;
     const std::vector<std::int64_t> ids = elite_ids();

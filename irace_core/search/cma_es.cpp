@@ -102,6 +102,7 @@ CmaEs::CmaEs(std::vector<double> mean, double step, std::int64_t population)
     weight /= sum;
     squares += square(weight);
   }
+  SWARMSMITH_ASSERT(weights_.back() > 0, "each of the better half counts");
   mu_eff_ = 1 / squares;
   // Table 1 of the tutorial.
   c_sigma_ = (mu_eff_ + 2) / (n + mu_eff_ + 5);
@@ -149,6 +150,7 @@ void CmaEs::update(std::span<const std::vector<double>> points) {
   // y_w, the weighted mean of the steps (equation 41).
   std::vector<double> moved(n, 0);
   for (std::size_t k = 0; k < weights_.size(); ++k) {
+    SWARMSMITH_ASSERT(points[k].size() == n, "a point has each dimension");
     for (std::size_t i = 0; i < n; ++i)
       moved[i] += weights_[k] * (points[k][i] - mean_[i]) / step_;
   }

@@ -43,6 +43,7 @@ Expected<std::optional<Round>> Generations::next(std::int64_t next_id) {
   ++generation_;
   const std::int64_t size =
       is_final() ? plan_.finalists : std::min(plan_.population, plan_.configurations - bred_);
+  SWARMSMITH_ASSERT(size >= 1, "a generation has a member, and the final stage a finalist");
   auto brood = is_final() ? breeder_->finalists(size, next_id, last_)
                           : breeder_->breed(++generation_number_, size, next_id, last_);
   if (!brood) return Unexpected(brood.error());
@@ -99,6 +100,7 @@ Expected<void> Generations::extend(std::int64_t experiments) {
     plan_.configurations = configurations;
     plan_.generations = (configurations + plan_.population - 1) / plan_.population;
   }
+  SWARMSMITH_ASSERT(plan_.generations >= 1, "what is enough is enough for a generation");
   generation_ = 0;
   bred_ = 0;
   over_ = false;

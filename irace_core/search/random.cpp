@@ -94,12 +94,13 @@ Expected<Configuration> draw_uniform(const ParameterSpace& space, const Repair& 
 
 Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOptions& options) {
   const bool is_automatic = options.finalists == 0;
-  const std::int64_t finalists =
-      is_automatic ? std::max<std::int64_t>(1, budget / kAutomaticFinalists) : options.finalists;
   // There are at least as many draws as finalists.
-  const std::int64_t least_finalists = is_automatic ? 1 : finalists;
-  const std::int64_t least = least_finalists * (options.runs + options.final_runs);
+  const std::int64_t each = options.runs + options.final_runs;
+  const std::int64_t least = (is_automatic ? 1 : options.finalists) * each;
   if (budget < least) return Unexpected(too_small(budget, least));
+  const std::int64_t finalists =
+      is_automatic ? std::clamp<std::int64_t>(budget / kAutomaticFinalists, 1, budget / each)
+                   : options.finalists;
   GenerationPlan plan{.population = kChunk,
                       .configurations = (budget - finalists * options.final_runs) / options.runs,
                       .runs = options.runs,
@@ -107,6 +108,7 @@ Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOpt
                       .finalists = finalists,
                       .final_runs = options.final_runs};
   plan.generations = (plan.configurations + kChunk - 1) / kChunk;
+  SWARMSMITH_ASSERT(plan.configurations >= finalists, "a finalist was drawn");
   // The remaining runs are too few for a draw; finalists get further pairs from them.
   plan.final_runs = (budget - plan.configurations * plan.runs) / finalists;
   return plan;

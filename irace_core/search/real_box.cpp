@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/assert.h"
 #include "irace_core/internal/rounding.h"
 
 namespace swarmsmith::search {
@@ -46,6 +47,7 @@ Expected<RealBox> RealBox::of(const ParameterSpace& space, std::string_view sear
 }
 
 Configuration RealBox::to_configuration(std::span<const double> point) const {
+  SWARMSMITH_ASSERT(point.size() == dimensions(), "a point has the box's dimensions");
   Configuration configuration(middles_.size());
   for (std::size_t i = 0; i < middles_.size(); ++i) {
     const double value = irace::round_to_digits(middles_[i] + point[i] * units_[i], digits_);
@@ -55,6 +57,7 @@ Configuration RealBox::to_configuration(std::span<const double> point) const {
 }
 
 std::vector<double> RealBox::to_point(const Configuration& configuration) const {
+  SWARMSMITH_ASSERT(configuration.size() == dimensions(), "a dimension for each parameter");
   std::vector<double> point;
   point.reserve(middles_.size());
   for (std::size_t i = 0; i < middles_.size(); ++i)

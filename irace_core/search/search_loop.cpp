@@ -51,6 +51,8 @@ Expected<void> SearchLoop::ask() {
   std::set<std::int64_t> alive;
   wanted_.reserve(round_.runs.size());
   for (const auto& [id, pair] : round_.runs) {
+    SWARMSMITH_ASSERT(id >= 1 && id <= static_cast<std::int64_t>(configurations_.size()),
+                      "a round runs configurations that were made");
     instances_.extend_to(pair);
     wanted_.push_back({.configuration = id,
                        .pair = pair,
@@ -95,6 +97,7 @@ void SearchLoop::tell(std::span<const Measurement> measurements) {
   report_steps(costs);
   Verdict verdict = strategy_->take(costs);
   alive_ = std::move(verdict.alive);
+  SWARMSMITH_ASSERT(std::ranges::is_sorted(alive_), "ids are looked up by halving");
   if (verdict.ended) {
     verdict.ended->iteration = iteration_;
     verdict.ended->used = used_;
@@ -164,6 +167,7 @@ void SearchLoop::stop() {
 }
 
 Expected<void> SearchLoop::extend(std::int64_t experiments) {
+  SWARMSMITH_ASSERT(finished_, "an extension follows the end");
   if (failure_) return Unexpected(*failure_);
   if (auto extended = strategy_->extend(experiments); !extended) return extended;
   scenario_.max_experiments += experiments;

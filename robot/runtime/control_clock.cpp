@@ -6,6 +6,11 @@
 
 namespace swarmsmith {
 
+ControlClock::ControlClock(TimePoint start, Duration period, std::int64_t cycles)
+    : start_(start), period_(period), cycles_(cycles) {
+  SWARMSMITH_ASSERT(period_ > Duration::zero() && cycles_ >= 0, "time goes on from cycle to cycle");
+}
+
 ControlClock::Beat ControlClock::beat(TimePoint now) {
   if (now < next() || last_ >= cycles_) return {};
   const std::int64_t cycle = std::min<std::int64_t>((now - start_) / period_, cycles_);

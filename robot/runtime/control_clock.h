@@ -10,8 +10,7 @@ namespace swarmsmith {
 /// cycle that is a whole period late is not made up for: it is skipped and counted.
 class ControlClock {
  public:
-  ControlClock(TimePoint start, Duration period, std::int64_t cycles)
-      : start_(start), period_(period), cycles_(cycles) {}
+  ControlClock(TimePoint start, Duration period, std::int64_t cycles);
 
   struct Beat {
     std::int64_t cycle = 0;  ///< 0: no cycle is due

@@ -50,6 +50,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 DriverWatch::DriverWatch(Limits limits) : limits_(limits) {
+  SWARMSMITH_ASSERT(limits_.hold >= Duration::zero(), "the time that a driver has is not negative");
   SWARMSMITH_ASSERT(limits_.hold <= limits_.give_up, "treads are held before a run is given up");
   forget_changes();
 }
@@ -69,6 +70,8 @@ bool DriverWatch::is_quiet(TimePoint now) const {
 
 void DriverWatch::commanded(TimePoint at, double left_mps, double right_mps) {
   SWARMSMITH_ASSERT(std::isfinite(left_mps) && std::isfinite(right_mps), "a command is two speeds");
+  SWARMSMITH_ASSERT(commands_.empty() || commands_.back().from <= at,
+                    "commands are in the order of their times");
   while (commands_.size() > 1 && at - commands_[1].from > kMemory)
     commands_.pop_front();
   const bool is_new = commands_.empty() || commands_.back().left_mps != left_mps ||
@@ -111,6 +114,7 @@ void DriverWatch::compare_changes(const DrivenMessage& driven) {
 
 std::ptrdiff_t DriverWatch::prompt_delays() const {
   const auto delays = static_cast<std::ptrdiff_t>(limits_.hold / kDelayStep) + 1;
+  SWARMSMITH_ASSERT(delays >= 1, "a driver that obeys at once is prompt");
   return std::min<std::ptrdiff_t>(delays, Follows::kDelays);
 }
 
@@ -137,6 +141,7 @@ std::string DriverWatch::why_behind() const {
 }
 
 void DriverWatch::note_obeyed(const DrivenMessage& driven, TimePoint until) {
+  SWARMSMITH_ASSERT(until <= driven.arrival.at, "what it obeys was commanded before it said so");
   const bool stands = driven.left_mps == 0 && driven.right_mps == 0;
   const bool is_late = driven.arrival.at - until > limits_.hold;
   // An earlier prompt report does not excuse a late one. All late reports count the same, however

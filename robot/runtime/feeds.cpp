@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "base/assert.h"
 #include "sim/control/labeler.h"
 
 namespace swarmsmith {
@@ -28,6 +30,11 @@ std::uint8_t channel(double value, double scale) {
 }
 
 }  // namespace
+
+Feeds::Feeds(FeedSettings settings) : settings_(std::move(settings)) {
+  SWARMSMITH_ASSERT(settings_.color_scale > 0 && settings_.proximity_range_m > 0,
+                    "options were checked where they were read");
+}
 
 std::optional<Duration> Feeds::age(Feed feed, TimePoint now) const {
   if (of(feed).heard == 0) return std::nullopt;

@@ -25,7 +25,7 @@ struct FeedSettings {
 /// such as one with a sensor that is off, is ignored: its feed gets older, and keeps the reason.
 class Feeds {
  public:
-  explicit Feeds(FeedSettings settings) : settings_(std::move(settings)) {}
+  explicit Feeds(FeedSettings settings);
 
   /// -infinity below 0.05 m, +infinity beyond the range. NaN means a missing sensor, not a free
   /// path.

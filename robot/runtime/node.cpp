@@ -59,6 +59,7 @@ double counted_time_s(std::int64_t cycle) {
 }  // namespace
 
 std::optional<Command> within_limits(const Command& command, double max_mps) {
+  SWARMSMITH_ASSERT(max_mps >= 0, "a limit of speeds is not negative");
   if (!(std::isfinite(command.left_mps) && std::isfinite(command.right_mps))) return std::nullopt;
   Command limited = command;
   limited.left_mps = std::clamp(command.left_mps, -max_mps, max_mps);
@@ -220,6 +221,11 @@ void RobotNode::arm(const Order& order, const Now& now) {
   SWARMSMITH_ASSERT(!is_on() && !killed_, "no run begins in another, nor after a kill");
   const auto cycles =
       static_cast<std::int64_t>(std::llround(order.seconds / seconds_of(settings_.period)));
+  if (cycles < 1) {  // it would have no last cycle, and so no end
+    refused_ = fmt::format("a run of {} s is shorter than a cycle of {} s", order.seconds,
+                           seconds_of(settings_.period));
+    return;
+  }
   const TimePoint start = clock_at(order.at_unix_s, now);
   begin(order.run, order.seed.value_or(settings_.seed), cycles, {start, order.at_unix_s});
   phase_ = Phase::Armed;
@@ -301,6 +307,7 @@ Decision RobotNode::decide(const Now& now) {
     phase_ = not_ready(now.clock).empty() ? Phase::Ready : Phase::Idle;
     return {};  // the robot may be carried or driven to its start position
   }
+  SWARMSMITH_ASSERT(!is_on() || (clock_ && control_), "a run has a clock and a controller");
   if (is_on() && settings_.operator_gone > Duration::zero() &&
       now.clock - operator_heard_ > settings_.operator_gone) {
     fail(silence_of_operator(now));
@@ -386,6 +393,7 @@ Decision RobotNode::hold_and_count(const ControlClock::Beat& beat, const Now& no
 }
 
 Decision RobotNode::step(std::int64_t cycle, Duration late, const Now& now) {
+  SWARMSMITH_ASSERT(control_ && cycle > cycle_, "a controller is stepped once in a cycle");
   cycle_ = cycle;
   SensedSenses senses(sensed_);
   const Command wanted = control_->step(senses);
@@ -486,6 +494,8 @@ Decision RobotNode::step_counted(const Now& now) {
 }
 
 void RobotNode::end(Phase phase) {
+  SWARMSMITH_ASSERT(phase == Phase::Ended || phase == Phase::Stopped || phase == Phase::Failed,
+                    "after its end a run is not on");
   phase_ = phase;
   driver_.end();
   judge();
@@ -506,6 +516,8 @@ void RobotNode::fail(const std::string& why) {
 }
 
 void RobotNode::disarm(const std::string& why) {
+  // An idle node commands nothing: one that ran would leave its treads as they are.
+  SWARMSMITH_ASSERT(phase_ == Phase::Armed, "a run that has begun is stopped, not called off");
   refused_ = why;
   run_.clear();
   driver_.end();
@@ -531,6 +543,7 @@ void RobotNode::judge() {
   if (!broken_.empty()) add(RunVerdict::Invalid, broken_);
   if (log_lost_) add(RunVerdict::Invalid, "the log is not whole: " + log_trouble_);
   if (clock_ && clock_->cycles() > 0) {
+    SWARMSMITH_ASSERT(held_ + skipped_ <= clock_->cycles(), "no cycle comes after the last one");
     const double share = static_cast<double>(skipped_) / static_cast<double>(clock_->cycles());
     if (share > kDegraded) {
       add(share > kInvalid ? RunVerdict::Invalid : RunVerdict::Degraded,

@@ -129,7 +129,9 @@ RunStarter::RunStarter(Settings settings, const std::vector<std::string>& robots
       roll_(robots, id),
       id_(std::move(id)),
       called_(now.clock),
-      names_(robots) {}
+      names_(robots) {
+  SWARMSMITH_ASSERT(!names_.empty(), "an order without names would be for all robots");
+}
 
 void RunStarter::hear(std::size_t robot, const NodeState& state, const Now& now) {
   roll_.hear(robot, state, now);
@@ -159,6 +161,8 @@ bool RunStarter::has_left(const RolledRobot& robot) const {
 }
 
 void RunStarter::give_up(std::string why, const Now& now) {
+  SWARMSMITH_ASSERT(stage_ != Stage::Calling && stage_ != Stage::Over,
+                    "only what was ordered is stopped");
   complaints_.push_back(std::move(why));
   if (stage_ == Stage::Stopping) return;
   stage_ = Stage::Stopping;

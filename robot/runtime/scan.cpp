@@ -9,13 +9,15 @@
 namespace swarmsmith {
 namespace {
 
+/// No lidar starts at a larger angle; beyond it, a turn would be lost in rounding.
+constexpr double kMostAngle_rad = 1e6;
 /// Half an increment, plus the rounding error of angles sent as float32.
 constexpr double kFarthest = 0.5 + 1e-3;
 
 /// The index of the value nearest to a ray, whose position is `place` values after the first one;
 /// `turn` values are a full turn. In a tie, the earlier value.
 std::optional<std::size_t> nearest(double place, double turn, std::size_t values) {
-  SWARMSMITH_ASSERT(values > 0 && turn > 0, "the scan was checked");
+  SWARMSMITH_ASSERT(values > 0 && turn > 0 && std::isfinite(place), "the scan was checked");
   const auto last = static_cast<double>(values - 1);
   std::optional<std::size_t> found;
   double least = kFarthest;
@@ -39,6 +41,8 @@ std::optional<std::string> resample(const ScanMessage& scan, double turn_rad, Ra
   const double increment = scan.angle_increment_rad;
   if (scan.ranges_m.empty()) return "a scan without values";
   if (!std::isfinite(scan.angle_min_rad)) return "a scan whose angle_min is not a number";
+  if (std::fabs(scan.angle_min_rad) > kMostAngle_rad)
+    return "a scan whose angle_min is too large for an angle";
   if (!(std::fabs(increment) > 1e-5 && std::fabs(increment) < 1))
     return "a scan with an angle_increment of " + std::to_string(increment) + " rad";
   const double turn = 2 * kPi / std::fabs(increment);

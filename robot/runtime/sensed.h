@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/assert.h"
 #include "sim/control/reference_model.h"
 #include "sim/control/used_senses.h"
 
@@ -18,7 +19,11 @@ template <class Enum>
 std::string_view name_of(Enum value) requires requires {
   names_of(value);
 }
-{ return names_of(value)[static_cast<std::size_t>(value)]; }
+{
+  const auto names = names_of(value);
+  SWARMSMITH_ASSERT(static_cast<std::size_t>(value) < names.size(), "each enumerator has a name");
+  return names[static_cast<std::size_t>(value)];
+}
 template <class Enum>
 std::optional<Enum> named(std::string_view name) {
   const auto names = names_of(Enum());

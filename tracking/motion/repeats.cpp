@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/median.h"
 #include "tracking/motion/internal/tag_ways.h"
 
@@ -35,6 +36,12 @@ class Search {
  public:
   Search(const std::vector<double>& times, std::vector<TagWay> tags)
       : times_(times), tags_(std::move(tags)) {
+    SWARMSMITH_ASSERT(std::ranges::all_of(tags_,
+                                          [&](const TagWay& tag) {
+                                            return tag.seen.size() == times.size() &&
+                                                   tag.way.size() == times.size();
+                                          }),
+                      "a tag's way has each frame");
     found_.again.assign(times.size(), false);
   }
 

@@ -134,6 +134,7 @@ using SightingsByTag = std::map<int, std::vector<std::size_t>>;
 SightingsByTag sightings_of(const Observations& observations,
                             std::span<const TrackedCamera> cameras,
                             std::span<const Repeats> repeats, const TrackOptions& options) {
+  SWARMSMITH_ASSERT(repeats.size() == cameras.size(), "each camera has a word about its frames");
   const double margin = options.limits.degraded_gap_s;
   const double end = instant_s(options.span.cycles) + margin;
   SightingsByTag found;
@@ -259,6 +260,8 @@ bool is_seen_early(const RobotSamples& samples) {
 std::vector<TrackedTag> seen_tags(const std::vector<TaggedRobot>& robots,
                                   const std::vector<std::vector<OneOfTags>>& several,
                                   const TrackedRun& run) {
+  SWARMSMITH_ASSERT(several.size() == robots.size() && run.robots.size() == robots.size(),
+                    "each robot has its tags and its part of the run");
   std::vector<TrackedTag> tags;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const TrackedRobot& tracked = run.robots[i];

@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/assert.h"
 #include "base/local_secret.h"
 #include "base/log.h"
 #include "base/plain_text.h"
@@ -88,6 +89,7 @@ struct Arguments {
 /// Drains when standard input ends. A separate thread waits for that and does nothing else, so that
 /// a signal that ends the process is not delayed.
 void watch_input() {
+  SWARMSMITH_ASSERT(g_wakeup != nullptr, "signals are handled before the input is watched");
   // The launcher's end may close first: a write must not kill this process before it drains.
   std::signal(SIGPIPE, SIG_IGN);
   std::thread([] {

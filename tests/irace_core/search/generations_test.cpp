@@ -58,6 +58,23 @@ TEST(RandomSearch, OfALargerBudgetTriesTheSameConfigurationsFirst) {
     EXPECT_EQ(few[i].configuration, many[i].configuration);
 }
 
+TEST(RandomSearch, HasNoMoreFinalistsThanItCanDrawAndRunAgain) {
+  RandomOptions options;
+  options.final_runs = 1000;
+  for (const std::int64_t budget : {1010, 10'000, 100'000}) {
+    const auto plan = search::plan_random_search(budget, options);
+    ASSERT_TRUE(plan);
+    EXPECT_EQ(plan->finalists, std::min<std::int64_t>(std::max<std::int64_t>(1, budget / 1000),
+                                                      budget / (options.runs + 1000)));
+    EXPECT_GE(plan->configurations, plan->finalists);
+    EXPECT_GE(plan->final_runs, 1000);
+  }
+  auto search = started(weights_space(3), options, 10'000);
+  play(*search, noisy_sphere);
+  EXPECT_EQ(search->elites().size(), 9U);
+  EXPECT_LE(search->experiments_used(), 10'000);
+}
+
 TEST(RandomSearch, DrawsFromEverySpace) {
   auto search = started(mixed_space(), options_of(SearchKind::Random), 2000);
   play(*search, [](const Configuration& c, const Experiment&) { return c[2]; });

@@ -118,6 +118,9 @@ TEST(RobotNode, RefusesStartsThatAreOldRepeatedForOthersOrAtTheWrongTime) {
   order.at_unix_s += 100;
   expect_refused(order, "ahead");
   order = robot.order(Order::Kind::Start);
+  order.seconds = 0.04;
+  expect_refused(order, "shorter than a cycle");
+  order = robot.order(Order::Kind::Start);
   order.robots = {"rvr9"};
   robot.node.hear(order, robot.now());
   EXPECT_EQ(robot.state().phase, Phase::Ready);

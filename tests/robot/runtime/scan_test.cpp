@@ -120,8 +120,10 @@ TEST(Scan, WithoutASenseIsRefused) {
     EXPECT_TRUE(resample(scan, 0, rays)) << increment;
   }
   scan = scan_of(10, 0, 0.1, 0);
-  scan.angle_min_rad = kInfinity;
-  EXPECT_TRUE(resample(scan, 0, rays));
+  for (const double first : {kInfinity, 1e30, -1e300}) {
+    scan.angle_min_rad = first;
+    EXPECT_TRUE(resample(scan, 0, rays)) << first;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/median.h"
 #include "tracking/motion/internal/camera_moved.h"
 #include "tracking/motion/internal/clock_checks.h"
@@ -32,6 +33,7 @@ struct FramesOfRun {
 
 FramesOfRun frames_of(const CameraRecord& record, const Repeats& repeats, double start_s,
                       double duration_s) {
+  SWARMSMITH_ASSERT(repeats.again.size() == record.frame_times.size(), "a word about each frame");
   FramesOfRun frames;
   for (std::size_t i = 0; i < record.frame_times.size(); ++i) {
     if (!repeats.again[i]) frames.times.push_back(record.frame_times[i] - start_s);
@@ -136,6 +138,7 @@ void measure_coverage(FrameReport& report, std::vector<std::pair<double, double>
     if (i == 0) report.from_s = from;
     report.covered_s += to - from;
     end = std::max(end, to);
+    SWARMSMITH_ASSERT(end <= duration_s, "what is covered is part of the run");
     if (spans[i].second >= duration_s - kSameInstant_s) report.covers_the_end = true;
   }
   report.to_s = std::max(report.from_s, end);
@@ -146,6 +149,9 @@ void measure_coverage(FrameReport& report, std::vector<std::pair<double, double>
 FrameReport frame_report(const Observations& observations, std::span<const TrackedCamera> cameras,
                          std::span<const Repeats> repeats, const Rig& rig,
                          const TrackOptions& options) {
+  SWARMSMITH_ASSERT(
+      repeats.size() == cameras.size() && observations.cameras.size() == cameras.size(),
+      "each camera has its record, and a word about its frames");
   FrameReport report;
   Findings of_clocks;
   const double duration = duration_of(options);

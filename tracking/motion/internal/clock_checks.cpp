@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "base/median.h"
 #include "tracking/motion/internal/clock_steps.h"
@@ -211,6 +212,7 @@ struct Fastest {
 };
 
 double high_one(std::vector<double>& values, double share) {
+  SWARMSMITH_ASSERT(share >= 0 && share <= 1, "a share of the values is smaller");
   if (values.size() < kFewFrames) return 0;
   const auto place =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));

@@ -37,6 +37,8 @@ Corners corners_of(const Sighting& seen) {
 class Film {
  public:
   explicit Film(const FilmedCamera& film) : film_(film) {
+    SWARMSMITH_ASSERT(film.repeats.again.size() == film.record.frame_times.size(),
+                      "a word about each frame");
     for (std::size_t i = 0; i < film.record.frame_times.size(); ++i) {
       if (!film.repeats.again[i]) frames_.push_back(i);
     }

@@ -31,6 +31,7 @@ double variance_of(const TaggedRobot& robot, const TagEvidence& evidence,
 void add_known_errors(const std::vector<TrackedTag>& tags, const std::vector<TagEvidence>& evidence,
                       std::span<const TrackedCamera> cameras, const Rig& rig, TrackedRun& run) {
   SWARMSMITH_ASSERT(tags.size() == evidence.size(), "each tag has its evidence");
+  SWARMSMITH_ASSERT(run.starts.size() == run.robots.size(), "each robot has its start");
   const int cycles = run.trajectory.instants();
   for (std::size_t i = 0; i < run.robots.size(); ++i) {
     TrackedRobot& robot = run.robots[i];

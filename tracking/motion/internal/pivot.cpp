@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/assert.h"
 #include "base/math.h"
 
 namespace swarmsmith {
@@ -64,6 +65,7 @@ std::optional<Heap> heap_around(const Resting& middle, const std::vector<Resting
     squares += point.ahead_m * point.ahead_m + point.aside_m * point.aside_m;
     noise += point.sigma_m * point.sigma_m;
   }
+  SWARMSMITH_ASSERT(heap.count >= 1, "a point is in the heap around it");
   if (heap.count < kLeastPoints) return std::nullopt;
   const auto count = static_cast<double>(heap.count);
   heap.ahead_m /= count;

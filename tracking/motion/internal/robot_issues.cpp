@@ -35,6 +35,7 @@ struct Gap {
 /// The gaps between samples, and those between the limits of the video and the first and last
 /// sample.
 std::vector<Gap> gaps_of(const std::vector<TimedPose>& track, const FrameReport& frames) {
+  SWARMSMITH_ASSERT(!track.empty(), "a robot that was never seen is an error before");
   std::vector<Gap> gaps;
   if (track.front().time_s > frames.from_s) gaps.push_back({frames.from_s, track.front().time_s});
   for (std::size_t i = 1; i < track.size(); ++i) {
@@ -304,6 +305,8 @@ void check_cameras(const RobotTrack& track, Complaints& complaints) {
 TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const RobotTrack& track,
                            const FrameReport& frames, const TrackOptions& options,
                            std::vector<Issue>& issues, std::vector<Check>& checks) {
+  SWARMSMITH_ASSERT(!track.kinds.empty() && track.kinds.size() == track.sigmas.size(),
+                    "the start and each cycle have their kind and their sigma");
   TrackedRobot made{.name = robot.setup.name, .tag = robot.setup.tag, .has_heading = robot.has_yaw};
   made.cycles.assign(track.kinds.begin() + 1, track.kinds.end());
   made.sigmas.assign(track.sigmas.begin() + 1, track.sigmas.end());
@@ -330,6 +333,7 @@ TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const
     ++used;
     made.mean_residual_m += sample.residual_m;
   }
+  SWARMSMITH_ASSERT(used > 0, "a robot that was never seen is an error before");
   made.mean_residual_m /= used;
   const std::vector<Gap> gaps = gaps_of(track.merged, frames);
   if (!gaps.empty()) {

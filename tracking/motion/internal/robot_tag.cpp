@@ -7,6 +7,7 @@
 #include <complex>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "base/median.h"
 
@@ -70,6 +71,7 @@ std::optional<Shear> shear_of(const View& view, const TagCorners& corners, doubl
 double floor_scale(const Observations& observations, std::span<const TrackedCamera> cameras,
                    const Rig& rig) {
   constexpr double kPlausible = 0.03;
+  SWARMSMITH_ASSERT(cameras.size() == observations.cameras.size(), "each camera has its record");
   std::vector<double> scales;
   std::vector<int> tags;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
@@ -96,6 +98,7 @@ std::optional<double> stretch_between(std::span<const Sample> samples, const Poi
   constexpr int kLeast = 20;
   const double dx = foot_a.x - foot_b.x;
   const double dy = foot_a.y - foot_b.y;
+  SWARMSMITH_ASSERT(dx != 0 || dy != 0, "only cameras that hang apart are compared");
   const Sample* before = nullptr;
   const Sample* between = nullptr;
   double sum = 0;
@@ -274,6 +277,9 @@ std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> 
   std::vector<Shear> shears;
   for (const Sample& sample : samples) {
     if (sample.use != Sample::Use::Used && sample.use != Sample::Use::BadFit) continue;
+    SWARMSMITH_ASSERT(sample.sighting < sightings.size() &&
+                          static_cast<std::size_t>(sample.camera) < cameras.size(),
+                      "a sample has its sighting and its camera");
     const View& view = cameras[static_cast<std::size_t>(sample.camera)].view;
     const auto shear =
         shear_of(view, sightings[sample.sighting].corners, robot.edge_m, robot.height_m);

@@ -44,6 +44,8 @@ Noise noise_of(const RobotSamples& samples, std::size_t cameras) {
   std::vector<std::vector<TimedPose>> tracks(cameras);
   for (const Sample& sample : samples.samples) {
     if (sample.use != Sample::Use::Used) continue;
+    SWARMSMITH_ASSERT(static_cast<std::size_t>(sample.camera) < cameras,
+                      "sightings of cameras that are lost were left out");
     tracks[static_cast<std::size_t>(sample.camera)].push_back({sample.time_s, sample.pose});
   }
   Noise noise;
@@ -224,6 +226,7 @@ struct Disagreement {
 };
 
 Disagreement disagreement_of(const std::vector<Stretch>& stretches) {
+  SWARMSMITH_ASSERT(!stretches.empty(), "tags that were not seen together are not judged");
   Disagreement made{.worst = *std::ranges::max_element(stretches, {}, &Stretch::part)};
   const auto is_off = [](const Stretch& stretch) { return stretch.part() > 1; };
   const auto first = std::ranges::find_if(stretches, is_off);
@@ -321,6 +324,7 @@ class Agreement {
 
 RobotSamples fused_samples(std::span<const OneOfTags> tags, std::span<const TrackedCamera> cameras,
                            const Rig& rig) {
+  SWARMSMITH_ASSERT(!tags.empty(), "a robot carries a tag");
   const std::vector<Noise> noise = noise_of(tags, cameras.size());
   RobotSamples made;
   made.scale = tags.front().samples.scale;

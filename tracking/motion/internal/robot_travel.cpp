@@ -6,6 +6,7 @@
 #include <cmath>
 #include <variant>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "base/overloaded.h"
 #include "tracking/geometry/walls.h"
@@ -49,6 +50,7 @@ std::span<const Pose> poses_at(const TrackedRun& run, int cycle) {
 
 bool touches(const std::span<const Pose> poses, std::size_t robot, const Arena& arena,
              double reach_m) {
+  SWARMSMITH_ASSERT(robot < poses.size(), "each robot has a pose at each instant");
   const Point at = poses[robot].position();
   if (distance_to_walls(arena, at) < reach_m + kTouch_m) return true;
   for (const Obstacle& obstacle : arena.obstacles) {
@@ -80,6 +82,9 @@ std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track,
                                  const Arena& arena, double reach_m) {
   std::vector<TravelStep> steps;
   const int cycles = run.trajectory.instants();
+  SWARMSMITH_ASSERT(track.kinds.size() == static_cast<std::size_t>(cycles) + 1 &&
+                        track.sigmas.size() == track.kinds.size(),
+                    "the start and each cycle have their kind and their sigma");
   // A body that was pushed slides until friction has stopped it.
   constexpr int kSlides = 10;
   int touched = touches(poses_at(run, 0), robot, arena, reach_m) ? 0 : -kSlides - 1;
@@ -370,6 +375,7 @@ void judge_direction(const std::vector<TravelFit>& fits, TrackedRun& run) {
 
 void judge_travel(const std::vector<TaggedRobot>& robots, const std::vector<RobotTrack>& tracks,
                   const Arena& arena, const TrackOptions& options, TrackedRun& run) {
+  SWARMSMITH_ASSERT(robots.size() == tracks.size(), "each robot has its track");
   const double reach = reach_of(options.body);
   std::vector<std::vector<TravelStep>> steps;
   std::vector<TravelFit> fits;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/median.h"
 
 namespace swarmsmith {
@@ -63,6 +64,7 @@ std::vector<RobotSetup> with_one_tag(const Observations& observations, int camer
         return seen.camera == camera && seen.tag == tag.tag;
       });
     };
+    SWARMSMITH_ASSERT(!tags.empty(), "a robot carries a tag");
     const bool is_plain = tags.size() == 1;
     made.push_back(is_plain ? robot : *std::ranges::max_element(tags, {}, times_seen));
   }
@@ -119,11 +121,13 @@ std::vector<TagWay> tag_ways(const Observations& observations, int camera,
 }
 
 std::size_t frame_before(const std::vector<double>& times, std::size_t frame, double span_s) {
+  SWARMSMITH_ASSERT(frame < times.size(), "a frame has its time");
   const auto first = std::ranges::lower_bound(times, times[frame] - span_s);
   return std::min(static_cast<std::size_t>(first - times.begin()), frame);
 }
 
 std::size_t frame_after(const std::vector<double>& times, std::size_t frame, double span_s) {
+  SWARMSMITH_ASSERT(frame < times.size(), "a frame has its time");
   const auto last = std::ranges::upper_bound(times, times[frame] + span_s);
   return std::max(static_cast<std::size_t>(last - times.begin()), frame + 1) - 1;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "base/median.h"
 #include "tracking/motion/internal/pivot.h"
@@ -26,6 +27,7 @@ constexpr double kLeastWay_m = 0.25;
 
 /// Joins `stride` steps each, so that the motion of slow robots exceeds the noise, too.
 std::vector<TravelStep> free_steps(std::span<const TravelStep> steps, int stride) {
+  SWARMSMITH_ASSERT(stride >= 1, "a long step is of one step or more");
   std::vector<TravelStep> made;
   int in_a_row = 0;
   for (const TravelStep& step : steps) {
@@ -77,6 +79,7 @@ double residual(const TravelStep& step, const Line& line) {
 
 Line fit_line(const std::vector<TravelStep>& steps, const std::vector<double>& weights,
               bool with_place) {
+  SWARMSMITH_ASSERT(steps.size() == weights.size(), "each step has its weight");
   Sums sums;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Eigen::Vector2d way(steps[i].aside_m, steps[i].ahead_m);
@@ -145,6 +148,7 @@ TravelFit fit_of(const std::vector<TravelStep>& steps, bool with_place) {
     fit.way_m += std::fabs(along);
     if (step.ahead_m < 0) backward += std::fabs(along);
   }
+  SWARMSMITH_ASSERT(backward <= fit.way_m, "what it went backwards is part of its way");
   // The true heading is the direction in which it drives more.
   fit.turned_rad = forward < 0 ? wrap_angle(turned + kPi) : turned;
   fit.by_turn_m = forward < 0 ? -line.ahead_m : line.ahead_m;
@@ -267,6 +271,7 @@ std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const Travel
   constexpr double kSlip = 0.1;
   constexpr double kSigmas = 4;
   const std::vector<Unexplained> ways = unexplained(steps, fit);
+  SWARMSMITH_ASSERT(ways.size() == steps.size(), "each step has its way");
   std::optional<Slide> worst;
   for (const Window& window : kWindows) {
     std::size_t first = 0;
@@ -284,6 +289,7 @@ std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const Travel
       add(last, 1);
       while (steps[last].to_s - steps[first].from_s > window.length_s + kSameInstant_s)
         add(first++, -1);
+      SWARMSMITH_ASSERT(first <= last, "a step is shorter than the windows");
       const double limit =
           window.slip_m + kSlip * way + kSigmas * std::sqrt(std::max(0.0, squares));
       const double is = std::fabs(aside);
