@@ -67,9 +67,10 @@ void print_head() {
   fmt::print(R"(# Fidelity: our simulator beside the original
 
 The original is ARGoS 3.0.0-beta48 with the RVR plugin and the control software published with the
-thesis; its data lie in `tests/golden/argos`. Ours runs flavour `watermelon-argos3`, profile `argos3`,
-from the original's starting poses and patches. `./dev bench fidelity` writes this page; the tests
-`sim_engine_golden` assert bounds on the same numbers. This page is about the RVR; [robots](robots.md#how-faithful-the-e-puck-is) has the e-puck.
+thesis; its data are in `tests/golden/argos`. Our simulator runs flavour `watermelon-argos3`, profile
+`argos3`, from the original's starting poses and patches. `./dev bench fidelity` writes this page; the tests
+`sim_engine_golden` check limits on the same numbers. This page is about the RVR; for the e-puck see
+[robots](robots.md#how-faithful-the-e-puck-is).
 
 )");
 }
@@ -121,8 +122,8 @@ std::string draw_trajectories() {
 void print_trajectories() {
   fmt::print(R"(## Trajectories
 
-The three recorded runs, driven again by the commands of their logs and by nothing else of them than
-the start, 1200 ticks, three robots. The logs round poses to 0.01 mm and commands to 0.1 mm/s.
+Our simulator repeated the three recorded runs (1200 ticks, three robots) from their starting poses, with only
+the commands in their logs. The logs round poses to 0.01 mm and commands to 0.1 mm/s.
 
 | run | first contact | largest deviation before it | up to the end |
 | --- | --- | --- | --- |
@@ -137,19 +138,20 @@ the start, 1200 ticks, three robots. The logs round poses to 0.01 mm and command
   }
   fmt::print(
       "\n![Trails of the original, broad, under ours, thin](figures/fidelity-trajectories.svg)\n\n"
-      "Up to the first contact; the original's trails are drawn broad, so that ours can be told "
-      "from them.\n\n");
+      "The trails end at the first contact; the original's trails are drawn broad, to distinguish "
+      "them from ours.\n\n");
 }
 
 /// Prints the results of both solvers in a few lines.
 void print_summary(const Results& exact, const Results& box2d) {
   fmt::print(R"(## In short, for both contact solvers
 
-Equal runs: of 600 runs of hG5 and r21, which draw no random numbers, those with the original's score.
-Moving the starts by half of their last digit makes a simulator differ from itself in about 12 of them.
-Intervals: 99 %, of the paired difference of a machine's mean score on a mission, twenty machines on three
-missions. Rank correlation: of the twenty machines' means; the original against itself (50 seeds against 50)
-reaches 0.963, 0.983 and 0.819. Ours are means over {} streams of control draws a seed with `exact`, {} with `box2d`.
+Equal runs: the number of runs with the same score as in the original, among 600 runs of hG5 and r21, which
+use no random numbers. If the starting poses are changed by half of their last digit, a simulator differs from
+itself in about 12 of these runs. Intervals: 99 % intervals of the paired difference of a machine's mean score on
+a mission, for twenty machines on three missions. Rank correlation: between the twenty machines' means; for the
+original compared with itself (50 seeds with 50 other seeds) it is 0.963, 0.983 and 0.819. Our scores are means
+over {} random streams of the control software for each seed with `exact`, {} with `box2d`.
 
 | | `exact` | `box2d` |
 | --- | --- | --- |
@@ -159,7 +161,7 @@ reaches 0.963, 0.983 and 0.819. Ours are means over {} streams of control draws 
     fmt::print("| {} | {} | {} |\n", what, of(exact), of(box2d));
   };
   both("equal runs of 600", [](const Results& results) { return results.equal_runs; });
-  both("intervals that hold 0, of 60", [](const Results& results) {
+  both("intervals that contain 0, of 60", [](const Results& results) {
     int held = 60;
     for (const MissionComparison& mission : results.missions)
       held -= mission.misses;
@@ -191,10 +193,11 @@ reaches 0.963, 0.983 and 0.819. Ours are means over {} streams of control draws 
 void print_machines(const Results& results) {
   fmt::print(R"(## Twenty machines on three missions, solver `exact`
 
-Means over seeds 1 to 100, ours over {} streams of control draws for each seed. Difference: ours less the
-original's, paired by seed, with its 99 % interval; (*) marks one that does not hold 0: of 60 independent ones,
-0.6 would be expected. Equal: share of the pairs with the same score. Larger scores are better; grid
-exploration is minus the mean age summed over the cycles.
+The scores are means over seeds 1 to 100, in our simulator also over {} random streams of the control software
+for each seed. Difference: our score minus the original's, paired by seed, with its 99 % interval; (*) marks an
+interval that does not contain 0: of 60 independent intervals, 0.6 are expected to be marked. Equal: share of the
+pairs with the same score. Larger scores are better; the score of grid exploration is the negative of the mean age
+summed over the cycles.
 
 )",
              streams_of(ContactModel::Exact));
@@ -212,8 +215,8 @@ exploration is minus the mean age summed over the cycles.
 void print_designs(const Results& results) {
   fmt::print(R"(## The thesis' own thirty designs, solver `exact`
 
-Each on its own mission, seeds 1 to 30, otherwise as above. Near the maximum score nearly all runs are equal,
-so that the interval of a single machine is too narrow there; the mean of the ten counts.
+Each design ran on its own mission with seeds 1 to 30, otherwise as above. Near the maximum score nearly all runs
+are equal, so the interval of a single machine is too narrow; use the mean of the ten machines instead.
 
 | machine | original | ours | difference | equal |
 | --- | --- | --- | --- | --- |
@@ -235,12 +238,12 @@ void print_more_robots() {
   fmt::print(R"(
 ## More than three robots
 
-The data here are of three robots, as in the thesis. An examination of commit 86d1d26 ran nine robots in
-both simulators, ten machines over 250 seeds each, paired by seed. In grid exploration, where 7 to 14 %
-of the robots' cycles were spent in contact, ours scored lower by 652 ± 479 of some 400,000 (0.2 %,
-p = 0.008), with either contact solver; in aggregation the difference was not significant. The cause is
-not known; contacts among many robots, which three seldom have, are suspected. Designs for more robots can be
-compared with each other here; compare their scores with the original's only beyond 0.3 %.
+The data on this page are for three robots, as in the thesis. For commit 86d1d26 we ran nine robots in both
+simulators, ten machines with 250 seeds each, paired by seed. In grid exploration, where robots were in contact
+in 7 to 14 % of their cycles, our scores were lower by 652 ± 479 of about 400,000 (0.2 %, p = 0.008), with either
+contact solver; in aggregation the difference was not significant. The cause is not known; it may be contacts
+among many robots, which are rare with three robots. Designs for more robots can be compared with each other in
+our simulator; compare their scores with the original's only if they differ by more than 0.3 %.
 )");
 }
 
