@@ -162,6 +162,7 @@ Expected<void> SqliteAtRest::rescore_real_run(RealRunId id, const RealRunRows& r
     }
     if (auto known = check_candidate(rows.candidate); !known) return known;
     rewrite_real_run(writer_.connection, id, rows);
+    if (same_scoring(*stored, rows)) carry_overrides(writer_.connection, id);
     return {};
   });
 }

@@ -273,6 +273,45 @@ TEST_F(RealRunsTest, CountAmongTheScoresOfTheirDesignWhenTheyCanBeTrusted) {
   EXPECT_EQ(digest_of(path), digest);
 }
 
+TEST_F(RealRunsTest, AnOverrideHoldsForTheScoringThatThePersonSaw) {
+  RealRunRows rows = synthetic_real_run(1, kWinner);
+  rows.score.verdict = "INVALID";
+  const RealRunId id = added(rows);
+  ASSERT_TRUE(opened()->add_override({id, "VALID", "ada", "the gap was nowhere near a border"}));
+  const auto now = [&] {
+    return all(
+        "SELECT verdict, measured_verdict, overridden_by, reason, counts, scorings"
+        " FROM v_real_runs")[0];
+  };
+  const Cells by_ada{"VALID", "INVALID", "ada", "the gap was nowhere near a border", "1"};
+  const auto of_scoring = [](Cells cells, const char* scoring) {
+    cells.emplace_back(scoring);
+    return cells;
+  };
+  EXPECT_EQ(now(), of_scoring(by_ada, "1"));
+  // The same again: what ada saw.
+  ASSERT_TRUE(opened()->rescore_real_run(id, rows));
+  EXPECT_EQ(now(), of_scoring(by_ada, "2"));
+  EXPECT_THAT(all("SELECT number, scoring FROM v_real_overrides"), ElementsAre(Cells{"1", "2"}));
+  EXPECT_THAT(open_reader(path)->integrity(), IsEmpty());
+  // Other inputs, with the same score and verdict.
+  rows.log += "# another start\n";
+  ASSERT_TRUE(opened()->rescore_real_run(id, rows));
+  EXPECT_EQ(now(), (Cells{"INVALID", "INVALID", "NULL", "NULL", "0", "3"}));
+  EXPECT_THAT(all("SELECT number, scoring, who FROM v_real_overrides"),
+              ElementsAre(Cells{"1", "2", "ada"}));
+  const auto heads = open_reader(path)->real_runs();
+  ASSERT_EQ(heads.size(), 1U);
+  EXPECT_EQ(heads[0].verdict, "INVALID");
+  EXPECT_FALSE(heads[0].counts);
+  // The same inputs, with another verdict.
+  ASSERT_TRUE(opened()->add_override({id, "VALID", "bob", "seen"}));
+  EXPECT_EQ(now()[0], "VALID");
+  rows.score.verdict = "DEGRADED";
+  ASSERT_TRUE(opened()->rescore_real_run(id, rows));
+  EXPECT_EQ(now(), (Cells{"DEGRADED", "DEGRADED", "NULL", "NULL", "1", "4"}));
+}
+
 TEST_F(RealRunsTest, OverridesWantAVerdictANameAndAReason) {
   added(synthetic_real_run(1, kWinner));
   const auto store = opened();

@@ -51,8 +51,8 @@ OrRefusal<KnownRun> run_of_store(const ProfileArguments& arguments, const std::s
   if (!kept) return tl::unexpected(kept.error());
   auto run = analyse_again(kept->rows);
   if (!run) return tl::unexpected(std::move(run.error()));
-  const Verdict verdict =
-      kept->overrides.empty() ? run->scored.verdict : kept->overrides.back().verdict;
+  const VerdictOverride* by_person = overriding(kept->overrides);
+  const Verdict verdict = by_person == nullptr ? run->scored.verdict : by_person->verdict;
   return KnownRun{word + " " + kept->rows.name, verdict, std::move(*run)};
 }
 

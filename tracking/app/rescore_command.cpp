@@ -123,18 +123,34 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRow
   return Again{std::move(*run), std::move(rows)};
 }
 
-void print_again(const std::string& word, const RealScoreRow& before, const RunFindings& run,
+/// What a person has said of the scoring before, if that no longer counts.
+std::optional<std::string> void_override(const KeptRun& before, const RunFindings& run,
+                                         const std::string& word) {
+  const VerdictOverride* by_person = overriding(before.overrides);
+  if (by_person == nullptr || overriding(run.overrides) != nullptr) return std::nullopt;
+  return "The verdict " + std::string(name_of(by_person->verdict)) + " by " + by_person->who +
+         " no longer counts: inputs or result are not those that " + by_person->who +
+         " saw. Give it again if it still holds: `swarmsmith track override " + word + " --store " +
+         before.store + "`.";
+}
+
+void print_again(const std::string& word, const KeptRun& before, const RunFindings& run,
                  bool all_checks, Output& output) {
+  const RealScoreRow& score = before.rows.score;
+  const auto no_longer = void_override(before, run, word);
   if (output.json) {
     JsonObject object;
     object.add("run", word)
-        .add("before", JsonObject().add("score", before.score).add("verdict", before.verdict));
+        .add("before", JsonObject().add("score", score.score).add("verdict", before.verdict()));
     add_result(object, run);
+    if (no_longer) object.add("override", *no_longer);
     output.out << object.text() << "\n";
     return;
   }
-  output.out << word << " was: score " << score_text(before.score) << ", " << before.verdict << "\n"
+  output.out << word << " was: score " << score_text(score.score) << ", " << before.verdict()
+             << "\n"
              << word << " is now: " << result_text(run, all_checks);
+  if (no_longer) print_note(output, *no_longer);
 }
 
 ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word, Output& output) {
@@ -142,12 +158,17 @@ ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word,
   if (!kept) return fail(output, kept.error());
   const auto again = score_again(arguments, kept->rows);
   if (!again) return fail(output, again.error());
-  const auto store = open_store(kept->store, StoreAtRest::IfMissing::Refuse);
+  auto store = open_store(kept->store, StoreAtRest::IfMissing::Refuse);
   if (!store) return fail(output, store.error());
   const auto written = (*store)->rescore_real_run(kept->id, again->rows);
+  store->reset();
   if (!written) return fail(output, ExitCode::Store, written.error());
-  print_again(word, kept->rows.score, again->run.findings(), arguments.all_checks, output);
-  return again->run.scored.verdict == Verdict::Invalid ? ExitCode::InvalidRun : ExitCode::Done;
+  const auto now = kept_run(kept->store, word);
+  if (!now) return fail(output, now.error());
+  RunFindings findings = again->run.findings();
+  findings.overrides = now->overrides;
+  print_again(word, *kept, findings, arguments.all_checks, output);
+  return findings.verdict() == Verdict::Invalid ? ExitCode::InvalidRun : ExitCode::Done;
 }
 
 /// Scores all runs, even if one fails; the first failure decides the exit code.

@@ -139,6 +139,11 @@ OrRefusal<std::string> named_store(const std::string& option) {
                   {}});
 }
 
+std::string KeptRun::verdict() const {
+  const VerdictOverride* by_person = overriding(overrides);
+  return by_person == nullptr ? rows.score.verdict : std::string(name_of(by_person->verdict));
+}
+
 OrRefusal<KeptRun> kept_run(const std::string& option, const std::string& word) {
   auto store = named_store(option);
   if (!store) return tl::unexpected(std::move(store.error()));
@@ -153,12 +158,14 @@ OrRefusal<KeptRun> kept_run(const std::string& option, const std::string& word) 
   if (!rows) return refused(ExitCode::NoSuchId, rows.error());
   KeptRun run{std::move(*store), *id, std::move(*rows), {}};
   const auto end = (*reader)->query(
-      "SELECT verdict, who, reason FROM v_real_overrides WHERE id = " + sql_text(word) +
-          " ORDER BY number",
+      "SELECT o.verdict, o.who, o.reason, o.scoring = r.scorings AND o.number = "
+      "(SELECT max(l.number) FROM v_real_overrides AS l WHERE l.run = o.run) "
+      "FROM v_real_overrides AS o JOIN v_real_runs AS r ON r.run = o.run WHERE o.run = " +
+          std::to_string(id->value) + " ORDER BY o.number",
       {}, [](const std::vector<std::string>&) {},
       [&](const std::vector<StoreReader::Cell>& cells) {
         run.overrides.push_back({verdict_from_name(cells[0].text).value_or(Verdict::Invalid),
-                                 cells[1].text, cells[2].text});
+                                 cells[1].text, cells[2].text, cells[3].text == "1"});
       });
   if (!end) return refused(ExitCode::Store, end.error());
   return run;

@@ -35,6 +35,9 @@ struct KeptRun {
   RealRunId id;
   RealRunRows rows;
   std::vector<VerdictOverride> overrides;  ///< oldest first
+
+  /// The verdict that counts.
+  std::string verdict() const;
 };
 /// Reads a run by its name, such as r7; exit code 4 if it does not exist. `option` is the value of
 /// `--store`; if it is empty, SWARMSMITH_STORE names the store.

@@ -54,10 +54,16 @@ std::string span_text(const Issue& issue) {
 
 void write_verdict(HtmlPage& page, const RunFindings& run) {
   page.heading(2, fmt::format("Verdict: {}", name_of(run.verdict())));
-  if (!run.overrides.empty()) {
+  if (const VerdictOverride* by_person = overriding(run.overrides)) {
+    page.paragraph(fmt::format("{} has set the verdict to {}: {}. As measured it was {}.",
+                               by_person->who, name_of(by_person->verdict), by_person->reason,
+                               name_of(run.scored.verdict)));
+  } else if (!run.overrides.empty()) {
     const VerdictOverride& last = run.overrides.back();
-    page.paragraph(fmt::format("{} has set the verdict to {}: {}. As measured it was {}.", last.who,
-                               name_of(last.verdict), last.reason, name_of(run.scored.verdict)));
+    page.paragraph(
+        fmt::format("{} had set the verdict to {}: {}. That no longer counts: the run was scored "
+                    "again since, with other inputs or another result.",
+                    last.who, name_of(last.verdict), last.reason));
   }
   for (const std::string& reason : run.scored.reasons)
     page.paragraph(reason);

@@ -387,6 +387,22 @@ class BadInput(unittest.TestCase):
                     "--who", "M. Muster", "--reason", "robot pushed by hand")
         self.assertEqual(word.returncode, 0, word.stderr)
         self.assertEqual(runs_in(self.store), before)
+        # The same again is what that person saw: all that say a verdict say that one.
+        again = call(TRACK, "rescore", "r1", "--store", self.store, "--json")
+        self.assertEqual(again.returncode, 6, again.stderr)
+        said = json.loads(again.stdout)
+        self.assertEqual((said["before"]["verdict"], said["verdict"], said["measured_verdict"]),
+                         ("INVALID", "INVALID", "VALID"))
+        # Other inputs are another scoring.
+        arena = LAB.copy_of_lab(f"{self.folder.name}/mended",
+                                rvr1_offset_toml=[("x = 0.07", "x = 0.0701")])
+        other = call(TRACK, "rescore", "r1", "--store", self.store, "--arena", arena)
+        self.assertEqual(other.returncode, 0, other.stderr)
+        self.assertIn("r1 was: score", other.stdout)
+        self.assertIn("The verdict INVALID by M. Muster no longer counts", other.stderr)
+        self.assertIn("swarmsmith track override r1", other.stderr)
+        report = json.loads(call(TRACK, "report", "r1", "--store", self.store, "--json").stdout)
+        self.assertEqual((report["verdict"], report["overrides"][0]["counts"]), ("VALID", False))
 
 
 if __name__ == "__main__":
