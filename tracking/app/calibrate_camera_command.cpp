@@ -9,6 +9,7 @@
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/refusal.h"
+#include "tracking/app/written_files.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/calibration/find_board.h"
 #include "tracking/rig/calibration_limits.h"
@@ -183,6 +184,9 @@ ExitCode run(const CameraArguments& arguments, Output& output) {
   if (!board) return fail(output, ExitCode::Usage, board.error());
   const auto target = target_of(arguments);
   if (!target) return fail_all(output, target.error());
+  auto flaw = flaw_of_calibration_output(target->file, CalibrationKind::Camera);
+  if (!flaw) flaw = flaw_of_output(arguments.map);
+  if (flaw) return fail(output, exit_code_of_tracking(*flaw), *flaw);
   Finds finds;
   const auto looked = for_each_picture(
       arguments.words,

@@ -17,6 +17,7 @@
 #include "tracking/app/run_plan.h"
 #include "tracking/app/run_store.h"
 #include "tracking/app/watch_run.h"
+#include "tracking/app/written_files.h"
 #include "tracking/overlay/draw_overlay.h"
 #include "tracking/video/picture_bytes.h"
 #include "tracking/video/video_writer.h"
@@ -136,6 +137,11 @@ Expected<void> write_png(const std::string& path, const ColorImage& image) {
   return write_whole_file(path, *bytes);
 }
 
+bool is_folder(const std::string& out) {
+  std::error_code none;
+  return out.ends_with('/') || fs::is_directory(out, none);
+}
+
 /// Writes the pictures to a video, a folder, or a single picture.
 class Sink {
  public:
@@ -144,7 +150,7 @@ class Sink {
   Expected<void> add(const ColorImage& image, double time_s, double frame_rate) {
     ++count_;
     if (one_) return write_png(out_, image);
-    if (is_folder()) {
+    if (is_folder(out_)) {
       std::error_code ignored;
       fs::create_directories(out_, ignored);
       return write_png((fs::path(out_) / fmt::format("{:06}.png", count_)).string(), image);
@@ -163,11 +169,6 @@ class Sink {
   std::int64_t count() const { return count_; }
 
  private:
-  bool is_folder() const {
-    std::error_code none;
-    return out_.ends_with('/') || fs::is_directory(out_, none);
-  }
-
   std::string out_;
   bool one_;
   std::int64_t count_ = 0;
@@ -232,6 +233,9 @@ ExitCode overlay(const OverlayArguments& words, Output& output) {
   if (!is_stored && words.run.arena.empty())
     return fail(output, ExitCode::Usage,
                 "a video needs its arena file: --arena FILE; a stored run is called r7");
+  const auto flaw =
+      is_folder(words.out) ? flaw_of_new_folder(words.out) : flaw_of_new_output(words.out);
+  if (flaw) return fail(output, exit_code_of_tracking(*flaw), *flaw);
   auto run = is_stored ? run_of_store(words) : run_of_videos(words, output);
   if (!run) return fail(output, run.error());
   if (const auto wrong = settle_video(words, *run)) return fail(output, *wrong);
@@ -252,7 +256,8 @@ CommandRun declare_overlay(Options& options) {
   constexpr Options::Range kTags{0, 65'535};
   options.words("RUN|VIDEO RUN|FILE", run.videos, "A stored run, r7, or its videos, one per camera",
                 Options::Need::Required);
-  options.text("-o,--output FILE", words->out, "Video (.mp4, .mkv), a folder (DIR/), or one .png",
+  options.text("-o,--output FILE", words->out,
+               "Video (.mp4, .mkv), a folder (DIR/), or one .png; never overwritten",
                Options::Need::Required);
   options.text("--store STORE", run.store, "Store of the run (else SWARMSMITH_STORE)");
   options.text("--video FILE", words->video, "Where a stored run's video is now");

@@ -7,6 +7,7 @@
 #include "tracking/app/run_plan.h"
 #include "tracking/app/run_store.h"
 #include "tracking/app/watch_run.h"
+#include "tracking/app/written_files.h"
 #include "tracking/report/quality.h"
 #include "tracking/report/result_text.h"
 
@@ -67,6 +68,9 @@ void print_result(const RunPlan& plan, const RunFindings& run,
 }
 
 ExitCode score(const ScoreArguments& arguments, Output& output) {
+  for (const std::string& file : {arguments.csv, arguments.report}) {
+    if (const auto flaw = flaw_of_output(file)) return fail(output, ExitCode::Failed, *flaw);
+  }
   auto plan = plan_run(arguments);
   if (!plan) return fail(output, plan.error());
   const auto run = watch_run(*plan, output);

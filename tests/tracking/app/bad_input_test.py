@@ -108,6 +108,48 @@ class BadInput(unittest.TestCase):
         self.assertEqual(before, {file: file.read_bytes() for file in before})
         self.assertEqual(notes.read_text(), "of a person")
 
+    def test_calibrations_and_overlays_overwrite_nothing_else(self):
+        """Files that the command does not read; a calibration of the same kind is replaced."""
+        log = LAB.film("good")
+        copy = LAB.copy_of_lab(f"{self.folder.name}/lab")
+        other = copy.with_name("other.toml")
+        other.write_text(copy.read_text())
+        film = self.folder / "film.mkv"
+        shutil.copy(log.parent / "good.mkv", film)
+        notes = self.folder / "pictures"
+        notes.mkdir()
+        (notes / "000001.png").write_bytes(b"of a person")
+        drawn = ("overlay", log.parent / "good.mkv", "--arena", copy, "--run", log)
+        again = ("calibrate", "arena", "--again", "--arena", copy)
+        spin = ("calibrate", "robot", "rvr1", "--spin", LAB.lab / "rvr1.spin.mkv", "--arena", copy)
+        before = {file: file.read_bytes() for file in (*copy.parent.iterdir(), film, notes / "000001.png")}
+        for command in ((*drawn, "-o", film), (*drawn, "-o", notes), (*drawn, "-o", f"{notes}/"),
+                        (*drawn, "--at", "1", "-o", notes / "000001.png"), (*again, "-o", other), (*again, "-o", log),
+                        (*spin, "-o", copy.with_name("rvr2.offset.toml")), (*spin, "-o", other)):
+            done = call(TRACK, *command)
+            self.assertEqual(done.returncode, 2, f"{command}: {done.stdout}")
+            self.assertIn("is there already", done.stderr)
+        self.assertEqual(before, {file: file.read_bytes() for file in before})
+        place = self.folder / "place.toml"
+        for _ in range(2):
+            done = call(TRACK, *again, "-o", place)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_files_to_write_are_tried_before_the_work(self):
+        log = LAB.film("good")
+        arena = LAB.lab / "arena.toml"
+        missing = self.folder / "missing"
+        for words in (("score", "--run", log, "--arena", arena, "--into", self.store, "--csv", missing / "a.csv"),
+                      ("score", "--run", log, "--arena", arena, "--into", self.store, "--report", missing / "a.html"),
+                      ("detect", log.parent / "good.mkv", "--csv", missing / "a.csv"),
+                      ("calibrate", "arena", "--again", "--arena", arena, "-o", missing / "a.toml"),
+                      ("overlay", log.parent / "good.mkv", "--run", log, "--arena", arena, "-o", missing / "a.mkv"),
+                      ("report", "r1", "--store", self.store, "-o", missing / "a.html")):
+            done = call(TRACK, *words)
+            self.assertEqual(done.returncode, 1, f"{words}: {done.stdout}")
+            self.assertIn(f"there is no folder {missing}", done.stderr)
+        self.assertFalse(self.store.exists())
+
     def test_a_link_that_leads_nowhere_is_followed(self):
         link = self.folder / "link.csv"
         link.symlink_to("target.csv")
