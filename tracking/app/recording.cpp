@@ -93,7 +93,10 @@ Expected<void> Recording::all_frames(Output& output) {
   while (!stop_was_asked_for()) {
     const auto more = source_.next();
     if (!more) return Unexpected(more.error());
-    if (!*more) return {};
+    if (!*more) {
+      if (!options_.clock) return {};
+      return options_.clock->finish(frames_ + dropped());
+    }
     const auto clock = time_of(source_.frame());
     if (!clock) return Unexpected(clock.error());
     if (!first_) {
@@ -109,7 +112,8 @@ Expected<void> Recording::all_frames(Output& output) {
   return {};
 }
 
-Expected<double> Recording::time_of(const Frame& frame) const {
+Expected<double> Recording::time_of(const Frame& frame) {
+  if (options_.clock) return options_.clock->time_of(frame);
   if (frame.time_s) return *frame.time_s;
   if (options_.rate) return static_cast<double>(frame.number) / *options_.rate;
   return Unexpected(error_of(IssueCode::Timestamps,

@@ -6,6 +6,7 @@
 #include "tracking/app/run_checks.h"
 #include "tracking/app/run_options.h"
 #include "tracking/app/run_store.h"
+#include "tracking/app/sidecar_file.h"
 #include "tracking/rig/picture_size.h"
 #include "tracking/rig/rig_file.h"
 #include "tracking/scoring/run_patches.h"
@@ -30,17 +31,6 @@ struct VideoFiles {
   std::vector<fs::path> videos;
   std::vector<fs::path> times;  ///< an entry is empty if there is no sidecar
 };
-
-/// The sidecar beside a video, such as "run07.times.csv" beside "run07.mp4", if it exists.
-fs::path sidecar_beside(const fs::path& source) {
-  const fs::path video = file_of_source(source.string());
-  for (fs::path file :
-       {fs::path(video).replace_extension(".times.csv"), fs::path(video).concat(".times.csv")}) {
-    std::error_code trouble;
-    if (fs::exists(file, trouble)) return file;
-  }
-  return {};
-}
 
 OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
   const auto count = log.videos.size();
@@ -73,7 +63,7 @@ OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
     } else if (!video.times.empty()) {
       files.times.push_back(folder / video.times);
     } else {
-      files.times.push_back(sidecar_beside(files.videos.back()));
+      files.times.push_back(sidecar_beside(files.videos.back().string()));
       video.times = files.times.back().filename().string();
     }
   }
