@@ -99,6 +99,8 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRow
     auto log = mended_log(arguments.log, stored->log);
     if (!log) return tl::unexpected(std::move(log.error()));
     stored->log = std::move(*log);
+    if (auto named = check_source(stored->log, store_word(arguments.store)); !named)
+      return tl::unexpected(std::move(named.error()));
     std::optional<RanMachine> machine;
     RunLog ran = stored->log;
     if (ran.design.empty() && ran.candidate.empty() && candidate)

@@ -77,6 +77,8 @@ OrRefusal<std::optional<RanMachine>> settle_control(const ScoreArguments& argume
                                                     RunPlan& plan) {
   plan.store = !arguments.into.empty() ? arguments.into : store_word(arguments.store);
   RunLog& log = plan.log;
+  if (auto named = check_source(log, plan.store); !named)
+    return tl::unexpected(std::move(named.error()));
   const bool says_control = !log.design.empty() || !log.candidate.empty();
   if (!arguments.into.empty() && !says_control) plan.if_missing = StoreAtRest::IfMissing::Make;
   if (!plan.store.empty()) {

@@ -1,11 +1,14 @@
 #include "tracking/app/run_store.h"
 
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 #include "base/id.h"
 #include "sim/control/controller.h"
 #include "sim/files/mission_file.h"
+#include "sim/files/profile_file.h"
 #include "tracking/app/score_arguments.h"
 
 namespace swarmsmith {
@@ -117,6 +120,23 @@ OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log) {
   control.mission = std::move(*mission);
   control.machine = printed_machine((**row)[1].text, (**row)[2].text);
   return control;
+}
+
+OrRefusal<void> check_source(const RunLog& log, const std::string& store) {
+  const std::vector<std::string> built_in = profile_names();
+  bool is_profile = std::ranges::find(built_in, log.source) != built_in.end();
+  std::error_code trouble;
+  if (!is_profile && !store.empty() && std::filesystem::exists(store, trouble)) {
+    auto reader = read_store(store);
+    if (!reader) return tl::unexpected(std::move(reader.error()));
+    is_profile = (*reader)->kept_profiles().contains(log.source);
+  }
+  if (!is_profile) return {};
+  return refused(error_of(IssueCode::Config,
+                          "`source` is \"" + log.source +
+                              "\", which is a profile of the simulator: scores of this film would "
+                              "look like simulated ones; give it another name, such as \"real\"",
+                          log.name));
 }
 
 OrRefusal<std::unique_ptr<StoreAtRest>> open_store(const std::string& store,

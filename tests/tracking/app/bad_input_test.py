@@ -373,6 +373,18 @@ class BadInput(unittest.TestCase):
             self.assert_refused(self.score(LAB.film("good"), arena=arena), "E_CONFIG", wanted,
                                 r"arena\.toml:\d+:\d+", exit_code=2)
 
+    def test_source_that_is_a_profile_of_the_simulator(self):
+        text = LAB.film("good").read_text()
+        source = re.search(r"^source = .*$", text, re.M)
+        for profile in ("rvr", "argos3"):
+            log = (self.changed_log(LAB.film("good"), (source[0], f'source = "{profile}"')) if source else
+                   self.changed_log(LAB.film("good"), ('start = ', f'source = "{profile}"\nstart = ')))
+            self.assert_refused(self.score(log), "E_CONFIG", f'`source` is "{profile}", which is a profile', exit_code=2)
+        self.assertEqual(self.score(LAB.film("good")).returncode, 0)
+        again = call(TRACK, "rescore", "r1", "--store", self.store, "--run", log)
+        self.assertEqual(again.returncode, 2, again.stdout)
+        self.assertIn("is a profile of the simulator", again.stderr)
+
     def test_run_without_a_begin(self):
         log = self.changed_log(LAB.film("good"), ('start = "1.2 s"\n', ""))
         self.assert_refused(self.score(log), "E_CONFIG", "the start of the run is unknown", exit_code=2)
