@@ -117,6 +117,8 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRow
   if (!errors.empty()) return refused(std::move(errors));
   errors =
       faults_of_rig(rig_of_run(stored->rig, stored->log), stored->log.mission, before.score.biased);
+  for (Error& error : faults_of_points(stored->log))
+    errors.push_back(std::move(error));
   if (!errors.empty()) return refused(std::move(errors));
   auto run = analyse(std::move(stored->observations), stored->rig, std::move(stored->log),
                      before.score.biased);

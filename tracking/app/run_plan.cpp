@@ -207,6 +207,8 @@ OrRefusal<RunPlan> plan_run(const ScoreArguments& arguments) {
   if (!machine) return tl::unexpected(machine.error());
   plan.rig = rig_of_run(plan.whole_rig, plan.log);
   errors = faults_of_rig(plan.rig, plan.log.mission, plan.takes_tags_for_centres);
+  for (Error& error : faults_of_points(plan.log))
+    errors.push_back(std::move(error));
   if (!errors.empty()) return refused(std::move(errors));
   if (auto settled = settle_layout(plan.log); !settled) {
     return tl::unexpected(std::move(settled.error()));

@@ -385,6 +385,22 @@ class BadInput(unittest.TestCase):
         self.assertEqual(again.returncode, 2, again.stdout)
         self.assertIn("is a profile of the simulator", again.stderr)
 
+    def test_points_and_robots_that_the_run_does_not_have(self):
+        def point(time, robot="rvr1"):
+            return f'[[point]]\nrobot = "{robot}"\ntime = "{time} s"\nu = 400\nv = 300\nwho = "A"\n'
+        three = 'robots = ["rvr1", "rvr2", "rvr3"]\n'
+        for robots, sections, wanted in (
+                (three, point(-0.5), r'\[\[point\]\] of "rvr1" is at -0\.50 s, and the run goes from 0 s to'),
+                (three, point(500), r'is at 500\.00 s, and the run goes'),
+                ('robots = ["rvr1", "rvr2"]\n', point(1, "rvr3"), r'`robots` leaves out "rvr3", and has: rvr1, rvr2'),
+                ('robots = ["rvr1", "rvr2"]\n', '[[robot]]\nname = "rvr3"\nverdict = "VALID"\n',
+                 r'`robots` leaves out "rvr3", .* take out its \[\[robot\]\]'),
+                ('robots = ["rvr1", "rvr2", "rvr3", "rvr2"]\n', "", r'`robots` has "rvr2" twice')):
+            log = self.changed_log(LAB.film("good"))
+            text = re.sub(r"^robots = .*\n", "", log.read_text(), flags=re.M)
+            log.write_text(text.replace("start = ", robots + "start = ", 1) + "\n" + sections)
+            self.assert_refused(self.score(log), "E_CONFIG", wanted, exit_code=2)
+
     def test_run_without_a_begin(self):
         log = self.changed_log(LAB.film("good"), ('start = "1.2 s"\n', ""))
         self.assert_refused(self.score(log), "E_CONFIG", "the start of the run is unknown", exit_code=2)
