@@ -134,7 +134,7 @@ Expected<RealRunWritten> SqliteAtRest::add_real_run(const RealRunRows& rows) {
       if (differ.empty()) return {};
       return unexpected(
           ErrorKind::Conflict,
-          fmt::format("the run is stored as {}, with other inputs ({} differ); `swarmsmith track "
+          fmt::format("the run is stored as {}, with other inputs ({}); `swarmsmith track "
                       "rescore {}` scores it again from its stored sightings",
                       to_string(*known), fmt::join(differ, ", "), to_string(*known)),
           path_.string());

@@ -28,5 +28,12 @@ TEST(Counted, OneIsOneAndAllOthersAreSeveral) {
   EXPECT_EQ(counted(std::size_t{2}, "hidden node"), "2 hidden nodes");
 }
 
+TEST(CommandWordTest, IsQuotedWhereAShellNeedsIt) {
+  EXPECT_EQ(command_word("lab/arena.toml"), "lab/arena.toml");
+  EXPECT_EQ(command_word("odd name/arena.toml"), "'odd name/arena.toml'");
+  EXPECT_EQ(command_word("Ada's.toml"), "'Ada'\\''s.toml'");
+  EXPECT_EQ(command_word(""), "''");
+}
+
 }  // namespace
 }  // namespace swarmsmith

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/output_file.h"
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
@@ -174,7 +175,7 @@ ExitCode solve(const CameraArguments& arguments, const Target& target, const Boa
         output,
         "note: where the camera hangs was found with its last calibration; next: `swarmsmith "
         "track calibrate arena --again --arena " +
-            arguments.arena + "`");
+            command_word(arguments.arena) + "`");
   }
   return ExitCode::Done;
 }

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "base/id.h"
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/robot_files.h"
@@ -35,8 +36,8 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   if (log.notes.empty()) log.notes = before.notes;
   if (log.videos.size() != before.videos.size()) {
     return refused(error_of(IssueCode::Config,
-                            "the run has " + std::to_string(before.videos.size()) +
-                                " videos, the log " + std::to_string(log.videos.size()),
+                            "the run has " + counted(before.videos.size(), "video") + ", the log " +
+                                std::to_string(log.videos.size()),
                             file));
   }
   for (std::size_t i = 0; i < log.videos.size(); ++i) {
@@ -135,7 +136,7 @@ std::optional<std::string> void_override(const KeptRun& before, const RunFinding
   return "The verdict " + std::string(name_of(by_person->verdict)) + " by " + by_person->who +
          " no longer counts: inputs or result are not those that " + by_person->who +
          " saw. Give it again if it still holds: `swarmsmith track override " + word + " --store " +
-         before.store + "`.";
+         command_word(before.store) + "`.";
 }
 
 void print_again(const std::string& word, const KeptRun& before, const RunFindings& run,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/plain_text.h"
 #include "base/text/whole_file.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/app/run_options.h"
@@ -40,13 +41,13 @@ OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
         wrong_option("no video given; name its file, or a run log with [[video]]", "VIDEO"));
   }
   if (!arguments.videos.empty() && arguments.videos.size() != count) {
-    return refused(ExitCode::Usage, wrong_option("the run log has " + std::to_string(count) +
-                                                     " videos; name as many, or none",
+    return refused(ExitCode::Usage, wrong_option("the run log has " + counted(count, "video") +
+                                                     "; name as many, or none",
                                                  "VIDEO"));
   }
   if (!arguments.times.empty() && arguments.times.size() != count) {
-    return refused(ExitCode::Usage, wrong_option("there are " + std::to_string(count) +
-                                                     " videos; give --times for each",
+    return refused(ExitCode::Usage, wrong_option("the run has " + counted(count, "video") +
+                                                     "; give --times once for each",
                                                  "--times"));
   }
   const fs::path folder = fs::path(arguments.run).parent_path();

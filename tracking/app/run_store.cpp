@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "base/id.h"
+#include "base/plain_text.h"
 #include "sim/control/controller.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
@@ -57,8 +58,10 @@ OrRefusal<Mission> mission_of_design(StoreReader& store, DesignId design, const 
                   {}});
 }
 
-Error no_such(const std::string& what, const std::string& store) {
-  return {ErrorKind::NotFound, what + "; `swarmsmith ls " + store + "` lists them", store};
+/// The error for an id that is not in the store. `kind` is one of `swarmsmith ls`.
+Error no_such(const std::string& what, const std::string& kind, const std::string& store) {
+  return {ErrorKind::NotFound,
+          what + "; `swarmsmith ls " + kind + " " + command_word(store) + "` lists them", store};
 }
 
 /// The design's winner.
@@ -68,7 +71,7 @@ OrRefusal<CandidateId> winner_of(StoreReader& reader, const std::string& store, 
   if (!row) return refused(ExitCode::Store, row.error());
   if (!*row) {
     return refused(ExitCode::NoSuchId,
-                   no_such("the store has no design " + to_string(design), store));
+                   no_such("the store has no design " + to_string(design), "designs", store));
   }
   const StoreReader::Cell& best = (**row)[0];
   if (best.type != StoreReader::Cell::Type::Integer) {
@@ -112,8 +115,9 @@ OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log) {
                                  std::to_string(control.candidate.value));
   if (!row) return refused(ExitCode::Store, row.error());
   if (!*row) {
-    return refused(ExitCode::NoSuchId,
-                   no_such("the store has no candidate " + to_string(control.candidate), store));
+    return refused(
+        ExitCode::NoSuchId,
+        no_such("the store has no candidate " + to_string(control.candidate), "candidates", store));
   }
   auto mission = mission_of_design(**reader, design_of(control.candidate), (**row)[0].text);
   if (!mission) return tl::unexpected(std::move(mission.error()));

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "base/id.h"
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "tracking/app/commands.h"
@@ -35,7 +36,7 @@ Expected<void> write_files(const ScoreArguments& arguments, const RunFindings& r
 
 /// The next step for the user.
 std::string next_step(const std::string& id, const std::string& store, Verdict verdict) {
-  const std::string at = id + " --store " + store;
+  const std::string at = id + " --store " + command_word(store);
   if (verdict != Verdict::Invalid) return "Next: `swarmsmith track report " + at + "`.";
   return "Statistics leave out an INVALID score. Next: correct the cause and `swarmsmith track "
          "rescore " +

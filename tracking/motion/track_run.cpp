@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "base/plain_text.h"
 #include "tracking/motion/internal/clock_checks.h"
 #include "tracking/motion/internal/known_errors.h"
 #include "tracking/motion/internal/robot_tags.h"
@@ -163,7 +164,7 @@ void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOp
   for (const auto& [tag, seen] : sightings) {
     if (known.contains(tag)) continue;
     ++count;
-    list += fmt::format("{}{} ({} times)", list.empty() ? "" : ", ", tag, seen.size());
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", tag, counted(seen.size(), "time"));
   }
   run.checks.push_back(answered(
       kUnknown, "", count == 0 ? Check::Outcome::Passed : Check::Outcome::Warned, count, 0));

@@ -144,16 +144,17 @@ void write_robots(HtmlPage& page, const RunFindings& run) {
                                {"from (s)", true},
                                {"Samples", true},
                                {"Dropped", true}}};
-  HtmlTable quality{.caption =
-                        "How well tags fit: measured over declared edge (1 to within 5 %), "
-                        "corners about a rigid square (up to 1.5 mm), estimated noise of "
-                        "the centre and the heading.",
-                    .columns = {{"Robot"},
-                                {"Scale", true},
-                                {"Residual (mm)", true},
-                                {"Sigma x, y (mm)", true},
-                                {"Sigma heading (deg)", true},
-                                {"Tag's offset x, y (mm) and date"}}};
+  HtmlTable quality{
+      .caption =
+          "How well tags fit: measured over declared edge (over 1 % off is a warning, over "
+          "3 % an error), corners about a rigid square (up to 1.5 mm), estimated noise of "
+          "the centre and the heading.",
+      .columns = {{"Robot"},
+                  {"Scale", true},
+                  {"Residual (mm)", true},
+                  {"Sigma x, y (mm)", true},
+                  {"Sigma heading (deg)", true},
+                  {"Tag's offset x, y (mm) and date"}}};
   HtmlTable borders{.caption = "Distance to the nearest border at the end (mm), positive inside",
                     .columns = {{"Robot"}, {"Distance and border"}}};
   for (const RobotFinding& robot : run.robots) {
