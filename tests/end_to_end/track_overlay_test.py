@@ -135,8 +135,10 @@ class OverlayAndLive(unittest.TestCase):
                 (["r1", "--store", "runs.db", "--video", "other.mkv", "-o", "x.mp4"], 1,
                  "not the video"),
                 (["r1", "--store", "runs.db", "--at", "soon", "-o", "x.png"], 2, "--at"),
-                (["r1", "--store", "runs.db", "--at", "99", "-o", "x.png"], 2, "no frame there: it shows the run from -0.50 s to"),
-                (["r1", "--store", "runs.db", "--at=-0.7", "-o", "x.png"], 2, "no frame there: it shows the run from -0.50 s to"),
+                (["r1", "--store", "runs.db", "--at", "99", "-o", "x.png"], 2,
+                 "no frame there: it shows the run from -0.5"),
+                (["r1", "--store", "runs.db", "--at=-0.7", "-o", "x.png"], 2,
+                 "no frame there: it shows the run from -0.5"),
                 (["r1", "--store", "runs.db", "--at", "5 m", "-o", "x.png"], 2, "--at"),
                 (["r1", "--store", "runs.db", "--camera", "west", "-o", "x.mp4"], 2, "west")):
             done = track("overlay", *words, cwd=self.lab)

@@ -150,8 +150,9 @@ Expected<void> write_map(const CameraSolution& solution, const std::vector<Board
 ExitCode solve(const CameraArguments& arguments, const Target& target, const Board& board,
                const Finds& finds, Output& output) {
   const Lens lens = arguments.lens == "fisheye" ? Lens::Fisheye : Lens::Pinhole;
-  print_note(output, fmt::format("the board is in {} of {} pictures; solving",
-                                 finds.views.size() + finds.of_video.size(), finds.looked_at));
+  print_note(output, fmt::format("the board is in {} of {}; solving",
+                                 finds.views.size() + finds.of_video.size(),
+                                 counted(finds.looked_at, "picture")));
   std::vector<BoardView> views = finds.views;
   for (const std::size_t i : pick_views(finds.of_video, board, finds.size, kMostViews))
     views.push_back(finds.of_video[i].view);

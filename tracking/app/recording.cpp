@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/output_file.h"
+#include "base/plain_text.h"
 #include "console/terminal.h"
 #include "tracking/app/stop_signal.h"
 #include "tracking/rig/issue.h"
@@ -85,8 +86,8 @@ void Recording::remove(const std::string& file) const {
 
 std::string Recording::summary() const {
   const double rate = frames_ > 1 && last_s_ > 0 ? static_cast<double>(frames_ - 1) / last_s_ : 0;
-  return fmt::format("{} frames in {:.1f} s, {:.1f} a second, {} dropped", frames_, last_s_, rate,
-                     dropped());
+  return fmt::format("{} in {:.1f} s, {:.1f} a second, {} dropped", counted(frames_, "frame"),
+                     last_s_, rate, dropped());
 }
 
 Expected<void> Recording::all_frames(Output& output) {

@@ -211,20 +211,20 @@ Error missing(const TaggedRobot& robot, const RobotSamples& samples, const Frame
   }
   if (samples.twice_unresolved > 0 && of(Sample::Use::Used) == 0) {
     return error_of(IssueCode::DuplicateId,
-                    fmt::format("{} was seen twice in {} frames, from frame {} to frame {}; take "
+                    fmt::format("{} was seen twice in {}, from frame {} to frame {}; take "
                                 "one of the tags away",
-                                who, samples.twice.size(), std::ranges::min(samples.twice),
-                                std::ranges::max(samples.twice)),
+                                who, counted(samples.twice.size(), "frame"),
+                                std::ranges::min(samples.twice), std::ranges::max(samples.twice)),
                     robot.setup.name);
   }
   const auto bad = of(Sample::Use::BadFit);
   if (2 * static_cast<std::size_t>(bad) > samples.samples.size()) {
     return error_of(
         IssueCode::RobotMissing,
-        fmt::format("{} was seen {} times, and in {} of them its tag is not a square of {:g} m at "
+        fmt::format("{} was seen {}, and in {} of them its tag is not a square of {:g} m at "
                     "{:g} m above the floor: it does not lie level, or is bent; mount it flat{}",
-                    who, samples.samples.size(), bad, robot.setup.edge_m, robot.setup.height_m,
-                    causes),
+                    who, counted(samples.samples.size(), "time"), bad, robot.setup.edge_m,
+                    robot.setup.height_m, causes),
         robot.setup.name);
   }
   return error_of(

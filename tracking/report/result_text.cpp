@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "base/text/toml_text.h"
 #include "sim/mission/trajectory_csv.h"
@@ -28,7 +29,7 @@ std::string robot_text(const RobotFinding& robot, std::size_t width) {
                   tracked.name, width, tracked.tag, 100 * robot.share(CycleKind::Measured),
                   tracked.longest_gap_s, millimetres(tracked.sigma.sigma_m));
   if (const auto missing = robot.cycles(CycleKind::Missing); missing > 0)
-    text += fmt::format("  {} cycles missing", missing);
+    text += fmt::format("  {} missing", counted(missing, "cycle"));
   if (robot.border != nullptr) {
     text += fmt::format("  {} {} its border{}", millimetres(std::abs(robot.border->signed_m)),
                         robot.border->signed_m >= 0 ? "inside" : "outside",

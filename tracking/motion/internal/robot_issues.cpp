@@ -210,9 +210,9 @@ void check_bridged(const RobotTrack& track, const std::vector<Gap>& gaps, const 
   if (guessed == 0 || gaps.empty()) return;
   const auto longest = std::ranges::max_element(gaps, {}, &Gap::length_s);
   complaints.add(IssueCode::Interpolated,
-                 fmt::format("has {} cycles across gaps of more than {:.1f} s or at the ends of "
+                 fmt::format("has {} across gaps of more than {:.1f} s or at the ends of "
                              "the video",
-                             guessed, limits.bridged_gap_s),
+                             counted(guessed, "cycle"), limits.bridged_gap_s),
                  longest->from_s, longest->to_s);
 }
 
@@ -313,10 +313,10 @@ void check_cameras(const RobotTrack& track, Complaints& complaints) {
   if (track.disagreeing == 0) return;
   complaints.add(
       IssueCode::CamerasDisagree,
-      fmt::format("is seen by cameras more than {:.0f} mm apart in {} cycles, most {:.1f} mm at "
+      fmt::format("is seen by cameras more than {:.0f} mm apart in {}, most {:.1f} mm at "
                   "{:.1f} s; check their clocks and calibrate their places again",
-                  1000 * kDisagree_m, track.disagreeing, 1000 * track.worst_disagreement_m,
-                  track.worst_disagreement_at_s));
+                  1000 * kDisagree_m, counted(track.disagreeing, "cycle"),
+                  1000 * track.worst_disagreement_m, track.worst_disagreement_at_s));
 }
 
 }  // namespace
