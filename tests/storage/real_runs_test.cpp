@@ -111,7 +111,7 @@ TEST_F(RealRunsTest, OtherInputsOfAStoredRunAreRefusedWithTheWayOut) {
   const auto refused = opened()->add_real_run(mended);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::Conflict);
-  EXPECT_THAT(refused.error().message, HasSubstr("the run log, calibrations differ"));
+  EXPECT_THAT(refused.error().message, HasSubstr("with other inputs (the run log, calibrations);"));
   EXPECT_THAT(refused.error().message, HasSubstr("swarmsmith track rescore r1"));
   EXPECT_EQ(stored({1}), in_order(rows));
 }
@@ -127,7 +127,7 @@ TEST_F(RealRunsTest, OtherLogsOfRobotsAreOtherInputs) {
   rows.log_cycles[3].left_mps = 0.1;
   const auto refused = opened()->add_real_run(rows);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("the robots' logs differ"));
+  EXPECT_THAT(refused.error().message, HasSubstr("with other inputs (the robots' logs);"));
 }
 
 TEST_F(RealRunsTest, CommandsOfRobotsStandBesideWhatTheCameraSaw) {
