@@ -35,4 +35,17 @@ std::string counted(std::integral auto count, std::string_view what,
   return several.empty() ? text.append(what) + "s" : text.append(several);
 }
 
+/// A word of a command in a message, such as a file's name: in quotes for a shell where it needs
+/// them.
+inline std::string command_word(std::string_view word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:@%+=,";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos)
+    return std::string(word);
+  std::string quoted = "'";
+  for (const char letter : word)
+    quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  return quoted + "'";
+}
+
 }  // namespace swarmsmith

@@ -134,7 +134,7 @@ Expected<RealRunWritten> SqliteAtRest::add_real_run(const RealRunRows& rows) {
       if (differ.empty()) return {};
       return unexpected(
           ErrorKind::Conflict,
-          fmt::format("the run is stored as {}, with other inputs ({} differ); `swarmsmith track "
+          fmt::format("the run is stored as {}, with other inputs ({}); `swarmsmith track "
                       "rescore {}` scores it again from its stored sightings",
                       to_string(*known), fmt::join(differ, ", "), to_string(*known)),
           path_.string());
@@ -162,6 +162,7 @@ Expected<void> SqliteAtRest::rescore_real_run(RealRunId id, const RealRunRows& r
     }
     if (auto known = check_candidate(rows.candidate); !known) return known;
     rewrite_real_run(writer_.connection, id, rows);
+    if (same_scoring(*stored, rows)) carry_overrides(writer_.connection, id);
     return {};
   });
 }

@@ -63,10 +63,10 @@ class StoreAtRest {
   /// Replaces the inputs of a run and everything that follows from its sightings and inputs, and
   /// adds the score to its history. Sightings, frame times and floor tags stay unchanged: BadInput
   /// when `rows` is another run (by its key) or has other sightings. NotFound when the store has no
-  /// such run.
+  /// such run. A person's verdict stays only if inputs, score, verdict and reasons are the same.
   virtual Expected<void> rescore_real_run(RealRunId id, const RealRunRows& rows) = 0;
-  /// Adds a user's verdict. BadInput for an unknown verdict, or without a name or a reason;
-  /// NotFound.
+  /// Adds a user's verdict on the last scoring. BadInput for an unknown verdict, or without a name
+  /// or a reason; NotFound.
   virtual Expected<void> add_override(const RealOverrideRow& row) = 0;
 };
 

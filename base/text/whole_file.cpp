@@ -64,7 +64,10 @@ Expected<std::string> read_whole_file(const fs::path& file) {
 Expected<std::string> read_file(const fs::path& file, const std::string& what, std::size_t most) {
   std::error_code trouble;
   if (fs::is_directory(file, trouble)) {
-    return bad_input("this is a folder, not a " + what + " file", file.string());
+    const bool is_an =
+        !what.empty() && std::string_view("aeiou").find(what[0]) != std::string_view::npos;
+    return bad_input("this is a folder, not " + std::string(is_an ? "an " : "a ") + what + " file",
+                     file.string());
   }
   if (!fs::exists(file, trouble) && !trouble) {
     return unexpected(ErrorKind::NotFound, "there is no such " + what + " file", file.string());

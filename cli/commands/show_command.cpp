@@ -87,8 +87,8 @@ std::vector<Part> parts_of_real_run(const std::string& number, std::int64_t sche
        "SELECT code, robot, from_s, to_s, text FROM v_real_issues" + of_run + " ORDER BY number"},
       {"scorings", "SELECT scoring, score, verdict, biased, at, program FROM v_real_scores" +
                        of_run + " ORDER BY scoring"},
-      {"overrides",
-       "SELECT verdict, who, reason, at FROM v_real_overrides" + of_run + " ORDER BY number"},
+      {"overrides", "SELECT scoring, verdict, who, reason, at FROM v_real_overrides" + of_run +
+                        " ORDER BY number"},
       {"videos", "SELECT camera, file, frames, damaged_frames, time_source FROM v_real_videos" +
                      of_run + " ORDER BY video"},
       {"calibrations",

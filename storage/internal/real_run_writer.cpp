@@ -291,6 +291,19 @@ void write_override(Connection& connection, const RealOverrideRow& row) {
       .run(row.run.value, row.verdict, row.who, row.reason);
 }
 
+void carry_overrides(Connection& connection, RealRunId id) {
+  Statement(connection,
+            "UPDATE real_override SET scoring = scoring + 1 WHERE run = ?1 AND scoring + 1 ="
+            " (SELECT max(number) FROM real_score WHERE run = ?1)")
+      .run(id.value);
+}
+
+bool same_scoring(const RealRunRows& a, const RealRunRows& b) {
+  return differing_inputs(a, b).empty() && a.score.score == b.score.score &&
+         a.score.verdict == b.score.verdict && a.score.biased == b.score.biased &&
+         a.score.reasons == b.score.reasons;
+}
+
 std::vector<std::string> differing_inputs(const RealRunRows& a, const RealRunRows& b) {
   std::vector<std::string> differ;
   if (a.candidate != b.candidate) differ.emplace_back("the candidate");

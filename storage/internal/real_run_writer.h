@@ -27,6 +27,10 @@ void rewrite_real_run(sqlite::Connection& connection, RealRunId id, const RealRu
 void write_campaign_of_real_runs(sqlite::Connection& connection, const std::string& key);
 
 void write_override(sqlite::Connection& connection, const RealOverrideRow& row);
+/// Lets the overrides of the last scoring but one refer to the last one.
+void carry_overrides(sqlite::Connection& connection, RealRunId id);
+/// Whether a person who saw one scoring has seen the other: the same inputs and the same result.
+bool same_scoring(const RealRunRows& a, const RealRunRows& b);
 
 /// The inputs that differ between two records of one run: "the run log", "calibrations"; empty when
 /// its score must be the same.

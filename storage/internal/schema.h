@@ -16,7 +16,7 @@ namespace swarmsmith {
 inline constexpr std::int64_t kApplicationId = 0x5377536d;
 /// Version of tables and views (PRAGMA user_version). Any change of either is a new version, but
 /// new modules in flavour_name are not.
-inline constexpr std::int64_t kSchemaVersion = 14;
+inline constexpr std::int64_t kSchemaVersion = 15;
 /// The last version that changed existing tables. Later versions added only indexes and new tables,
 /// or changed views of the same tables.
 inline constexpr std::int64_t kTablesVersion = 6;

@@ -99,6 +99,7 @@ FROM race_step;
 
 -- Not public: a real run with the scoring and the person's word on it that count, and whether its
 -- score does: a VALID or DEGRADED one whose robots' centres are known, or what a person said is.
+-- A person's word holds for the scoring that the person saw, not for a later one.
 CREATE VIEW real_run_now AS
 SELECT r.id AS run, r.candidate, r.source, r.mission, r.name, r.recorded, r.duration, r.stored,
        r.key, r.robots, r.videos, s.number AS scoring, s.score, s.verdict AS measured_verdict,
@@ -110,7 +111,8 @@ FROM real_run AS r
 JOIN real_score AS s
   ON s.run = r.id AND s.number = (SELECT max(l.number) FROM real_score AS l WHERE l.run = r.id)
 LEFT JOIN real_override AS o
-  ON o.run = r.id AND o.number = (SELECT max(l.number) FROM real_override AS l WHERE l.run = r.id);
+  ON o.run = r.id AND o.number = (SELECT max(l.number) FROM real_override AS l WHERE l.run = r.id)
+  AND o.scoring = s.number;
 
 -- The parts of a UNION ALL have the same affinities, hence the casts: else SQLite would make all of
 -- the view where a query joins it.

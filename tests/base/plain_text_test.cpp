@@ -27,5 +27,12 @@ TEST(Counted, OneIsOneAndAllOthersAreSeveral) {
   EXPECT_EQ(counted(2, "patch", "patches"), "2 patches");
 }
 
+TEST(CommandWordTest, IsQuotedWhereAShellNeedsIt) {
+  EXPECT_EQ(command_word("lab/arena.toml"), "lab/arena.toml");
+  EXPECT_EQ(command_word("odd name/arena.toml"), "'odd name/arena.toml'");
+  EXPECT_EQ(command_word("Ada's.toml"), "'Ada'\\''s.toml'");
+  EXPECT_EQ(command_word(""), "''");
+}
+
 }  // namespace
 }  // namespace swarmsmith

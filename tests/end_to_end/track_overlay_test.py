@@ -115,7 +115,7 @@ class OverlayAndLive(unittest.TestCase):
         scored = track("score", self.video, "--arena", "arena.toml", "--run", "run01.toml",
                        "--into", "runs.db", cwd=self.lab)
         self.assertIn(scored.returncode, (0, 6), scored.stderr)
-        stored = track("overlay", "r1", "--store", "runs.db", "--at", "1.5", "-o", "stored.png",
+        stored = track("overlay", "r1", "--store", "runs.db", "--at", "1.5 s", "-o", "stored.png",
                        cwd=self.lab)
         self.assertEqual(stored.returncode, 0, stored.stderr)
         picture = (self.lab / "video.png").read_bytes()
@@ -135,7 +135,11 @@ class OverlayAndLive(unittest.TestCase):
                 (["r1", "--store", "runs.db", "--video", "other.mkv", "-o", "x.mp4"], 1,
                  "not the video"),
                 (["r1", "--store", "runs.db", "--at", "soon", "-o", "x.png"], 2, "--at"),
-                (["r1", "--store", "runs.db", "--at", "99", "-o", "x.png"], 2, "no frame there"),
+                (["r1", "--store", "runs.db", "--at", "99", "-o", "x.png"], 2,
+                 "no frame there: it shows the run from -0.5"),
+                (["r1", "--store", "runs.db", "--at=-0.7", "-o", "x.png"], 2,
+                 "no frame there: it shows the run from -0.5"),
+                (["r1", "--store", "runs.db", "--at", "5 m", "-o", "x.png"], 2, "--at"),
                 (["r1", "--store", "runs.db", "--camera", "west", "-o", "x.mp4"], 2, "west")):
             done = track("overlay", *words, cwd=self.lab)
             self.assertEqual(done.returncode, code, (words, done.stderr))

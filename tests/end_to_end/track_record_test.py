@@ -106,6 +106,26 @@ class TrackRecord(unittest.TestCase):
         # By the video's own times now, and only a second of them.
         self.assertEqual(self.recorded("run.mkv", "second.mkv", "--seconds", "1")["frames"], 20)
 
+    def test_times_of_a_sidecar_come_first(self):
+        times = [round(0.1 * i + 0.03 * (i % 2), 6) for i in range(12)]
+        rows = [f"{i},{time + 5:.6f}" for i, time in enumerate(times)]
+        expected = [f"{i},{time:.6f}" for i, time in enumerate(times)]
+        images = self.images(12)
+        (self.folder / "images.times.csv").write_text("\n".join(["frame,time_s", *rows]) + "\n")
+        for number, folder in enumerate((images, f"{images}/")):
+            self.recorded(folder, f"folder{number}.mkv", "--rate", "20")
+            self.assertEqual(self.times(f"folder{number}.times.csv"), expected)
+        # A video whose own times are others.
+        (self.folder / "images.times.csv").unlink()
+        self.recorded(images, "even.mkv", "--rate", "20")
+        (self.folder / "even.times.csv").write_text("\n".join(["frame,time_s", *rows]) + "\n")
+        self.recorded("even.mkv", "copy.mkv")
+        self.assertEqual(self.times("copy.times.csv"), expected)
+        (self.folder / "even.times.csv").write_text("\n".join(["frame,time_s", *rows[:-2]]) + "\n")
+        done = self.record("even.mkv", "short.mkv")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("E_SIDECAR_MISMATCH", done.stderr)
+
     def test_what_was_recorded_survives_a_kill(self):
         recorder = self.start(self.images(400), "run.mkv", "--rate", "40", "--realtime")
         part = self.folder / "run.times.csv.part"

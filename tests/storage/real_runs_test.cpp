@@ -95,7 +95,7 @@ TEST_F(RealRunsTest, OtherInputsOfAStoredRunAreRefusedWithTheWayOut) {
   mended.log += "# changed\n";
   const Error refused = why_not(opened()->add_real_run(mended));
   EXPECT_EQ(refused.kind, ErrorKind::Conflict);
-  EXPECT_THAT(refused.message, HasSubstr("the run log, calibrations differ"));
+  EXPECT_THAT(refused.message, HasSubstr("with other inputs (the run log, calibrations);"));
   EXPECT_THAT(refused.message, HasSubstr("swarmsmith track rescore r1"));
   EXPECT_EQ(stored({1}), in_order(rows));
 }
@@ -108,7 +108,7 @@ TEST_F(RealRunsTest, OtherLogsOfRobotsAreOtherInputs) {
   const auto again = value_of(opened()->add_real_run(rows));
   EXPECT_FALSE(again.is_new);
   rows.log_cycles[3].left_mps = 0.1;
-  EXPECT_THAT(complaint_of(opened()->add_real_run(rows)), HasSubstr("the robots' logs differ"));
+  EXPECT_THAT(complaint_of(opened()->add_real_run(rows)), HasSubstr("with other inputs (the robots' logs);"));
 }
 
 TEST_F(RealRunsTest, CommandsOfRobotsStandBesideWhatTheCameraSaw) {
@@ -249,6 +249,45 @@ TEST_F(RealRunsTest, CountAmongTheScoresOfTheirDesignWhenTheyCanBeTrusted) {
   ASSERT_TRUE(store->add_override({{2}, "INVALID", "bob", "it was"}));
   EXPECT_EQ(all(scores).size(), 2U);
   EXPECT_EQ(digest_of(path), digest);
+}
+
+TEST_F(RealRunsTest, AnOverrideHoldsForTheScoringThatThePersonSaw) {
+  RealRunRows rows = synthetic_real_run(1, kWinner);
+  rows.score.verdict = "INVALID";
+  const RealRunId id = added(rows);
+  ASSERT_TRUE(opened()->add_override({id, "VALID", "ada", "the gap was nowhere near a border"}));
+  const auto now = [&] {
+    return all(
+        "SELECT verdict, measured_verdict, overridden_by, reason, counts, scorings"
+        " FROM v_real_runs")[0];
+  };
+  const Cells by_ada{"VALID", "INVALID", "ada", "the gap was nowhere near a border", "1"};
+  const auto of_scoring = [](Cells cells, const char* scoring) {
+    cells.emplace_back(scoring);
+    return cells;
+  };
+  EXPECT_EQ(now(), of_scoring(by_ada, "1"));
+  // The same again: what ada saw.
+  ASSERT_TRUE(opened()->rescore_real_run(id, rows));
+  EXPECT_EQ(now(), of_scoring(by_ada, "2"));
+  EXPECT_THAT(all("SELECT number, scoring FROM v_real_overrides"), ElementsAre(Cells{"1", "2"}));
+  EXPECT_THAT(open_reader(path)->integrity(), IsEmpty());
+  // Other inputs, with the same score and verdict.
+  rows.log += "# another start\n";
+  ASSERT_TRUE(opened()->rescore_real_run(id, rows));
+  EXPECT_EQ(now(), (Cells{"INVALID", "INVALID", "NULL", "NULL", "0", "3"}));
+  EXPECT_THAT(all("SELECT number, scoring, who FROM v_real_overrides"),
+              ElementsAre(Cells{"1", "2", "ada"}));
+  const auto heads = open_reader(path)->real_runs();
+  ASSERT_EQ(heads.size(), 1U);
+  EXPECT_EQ(heads[0].verdict, "INVALID");
+  EXPECT_FALSE(heads[0].counts);
+  // The same inputs, with another verdict.
+  ASSERT_TRUE(opened()->add_override({id, "VALID", "bob", "seen"}));
+  EXPECT_EQ(now()[0], "VALID");
+  rows.score.verdict = "DEGRADED";
+  ASSERT_TRUE(opened()->rescore_real_run(id, rows));
+  EXPECT_EQ(now(), (Cells{"DEGRADED", "DEGRADED", "NULL", "NULL", "1", "4"}));
 }
 
 TEST_F(RealRunsTest, OverridesWantAVerdictANameAndAReason) {

@@ -11,6 +11,7 @@
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/refusal.h"
+#include "tracking/app/written_files.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/calibration/solve_place.h"
 #include "tracking/detection/tag_detector.h"
@@ -153,6 +154,10 @@ ExitCode solve(const ArenaArguments& arguments, const Rig& rig, const CameraSetu
                                           "calibrate camera`",
                                       beside(arguments.arena, camera.model_file))});
   }
+  const std::string made = beside(arguments.arena, camera.place_file);
+  const std::string file = arguments.file.empty() ? made : arguments.file;
+  if (const auto flaw = flaw_of_calibration_output(file, CalibrationKind::Place))
+    return fail(output, exit_code_of_tracking(*flaw), *flaw);
   const auto question = question_of(arguments, rig, camera, arena, output);
   if (!question) return fail_all(output, {question.error()});
   auto calibration = solve_place(*question);
@@ -164,9 +169,7 @@ ExitCode solve(const ArenaArguments& arguments, const Rig& rig, const CameraSetu
   }
   calibration->camera_sha256 = model->second.sha256;
   calibration->made = utc_now();
-  const std::string made = beside(arguments.arena, camera.place_file);
   forget_input(made);
-  const std::string file = arguments.file.empty() ? made : arguments.file;
   if (const auto written = write_whole_file(file, calibration_text(*calibration)); !written)
     return fail(output, ExitCode::Failed, written.error());
   output.out << (output.json ? place_json(*calibration, file) : report_text(*calibration));

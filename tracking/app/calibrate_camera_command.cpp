@@ -4,11 +4,13 @@
 #include <numeric>
 
 #include "base/output_file.h"
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/refusal.h"
+#include "tracking/app/written_files.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/calibration/find_board.h"
 #include "tracking/rig/calibration_limits.h"
@@ -148,8 +150,9 @@ Expected<void> write_map(const CameraSolution& solution, const std::vector<Board
 ExitCode solve(const CameraArguments& arguments, const Target& target, const Board& board,
                const Finds& finds, Output& output) {
   const Lens lens = arguments.lens == "fisheye" ? Lens::Fisheye : Lens::Pinhole;
-  print_note(output, fmt::format("the board is in {} of {} pictures; solving",
-                                 finds.views.size() + finds.of_video.size(), finds.looked_at));
+  print_note(output, fmt::format("the board is in {} of {}; solving",
+                                 finds.views.size() + finds.of_video.size(),
+                                 counted(finds.looked_at, "picture")));
   std::vector<BoardView> views = finds.views;
   for (const std::size_t i : pick_views(finds.of_video, board, finds.size, kMostViews))
     views.push_back(finds.of_video[i].view);
@@ -173,7 +176,7 @@ ExitCode solve(const CameraArguments& arguments, const Target& target, const Boa
         output,
         "note: where the camera hangs was found with its last calibration; next: `swarmsmith "
         "track calibrate arena --again --arena " +
-            arguments.arena + "`");
+            command_word(arguments.arena) + "`");
   }
   return ExitCode::Done;
 }
@@ -186,6 +189,9 @@ ExitCode run(const CameraArguments& arguments, Output& output) {
   if (const auto own = each_its_own_file({{"--output", target->file}, {"--map", arguments.map}});
       !own)
     return fail(output, ExitCode::Usage, own.error());
+  auto flaw = flaw_of_calibration_output(target->file, CalibrationKind::Camera);
+  if (!flaw) flaw = flaw_of_output(arguments.map);
+  if (flaw) return fail(output, exit_code_of_tracking(*flaw), *flaw);
   Finds finds;
   const auto looked = for_each_picture(
       arguments.words,

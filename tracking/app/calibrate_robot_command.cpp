@@ -8,6 +8,7 @@
 #include "tracking/app/commands.h"
 #include "tracking/app/refusal.h"
 #include "tracking/app/run_checks.h"
+#include "tracking/app/written_files.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
@@ -121,6 +122,10 @@ ExitCode run(const RobotArguments& arguments, Output& output) {
                 "robot \"" + robot->name + "\" has " + tags_text(*robot) +
                     ", which must agree on its heading: film a straight run, --straight VIDEO");
   }
+  const std::string made = beside(arguments.arena, robot->offset_file);
+  const std::string file = arguments.file.empty() ? made : arguments.file;
+  if (const auto flaw = flaw_of_calibration_output(file, CalibrationKind::Offset, robot->name))
+    return fail(output, exit_code_of_tracking(*flaw), *flaw);
   auto calibration = solve(arguments, *rig, *camera, *robot, output);
   if (!calibration) return fail_all(output, {calibration.error()});
   date(*calibration);
@@ -132,9 +137,7 @@ ExitCode run(const RobotArguments& arguments, Output& output) {
   for (Error& fault : faults)
     fault.where = arguments.spin;
   if (!faults.empty()) return fail_all(output, faults);
-  const std::string made = beside(arguments.arena, robot->offset_file);
-  forget_input(made);
-  const std::string file = arguments.file.empty() ? made : arguments.file;
+  if (!robot->offset_file.empty()) forget_input(made);
   if (const auto written = write_whole_file(file, calibration_text(*calibration)); !written)
     return fail(output, ExitCode::Failed, written.error());
   if (output.json) {

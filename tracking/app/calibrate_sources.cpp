@@ -15,6 +15,7 @@
 #include "base/text/whole_file.h"
 #include "console/counter.h"
 #include "tracking/app/run_checks.h"
+#include "tracking/app/sidecar_file.h"
 #include "tracking/geometry/tag_pose.h"
 #include "tracking/motion/repeats.h"
 #include "tracking/motion/track_run.h"
@@ -23,27 +24,6 @@
 
 namespace swarmsmith {
 namespace {
-
-/// The times in the sidecar beside a video or folder, if there is one.
-Expected<std::optional<std::vector<double>>> sidecar_of(const std::string& source) {
-  // "run.times.csv" for run.mp4 and for the folder run; a dot in a folder's name does not begin an
-  // extension.
-  std::filesystem::path sidecar(file_of_source(source));
-  if (sidecar.filename().empty()) sidecar = sidecar.parent_path();
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(sidecar, ignored)) sidecar.replace_extension();
-  sidecar += ".times.csv";
-  if (!std::filesystem::exists(sidecar, ignored)) return std::nullopt;
-  auto text = read_file(sidecar, "times");
-  if (!text) return Unexpected(text.error());
-  auto times = parse_frame_times(*text);
-  if (!times) {
-    Error error = times.error();
-    if (error.where.empty()) error.where = sidecar.string();
-    return Unexpected(error);
-  }
-  return std::optional(std::move(*times));
-}
 
 /// Checks whether a tag has its declared size and height: an error beyond the limit for runs, and
 /// only a note for a smaller difference.
@@ -121,7 +101,7 @@ Expected<std::vector<TagSample>> tag_path(const std::string& video, const Rig& r
   const auto fits =
       check_picture_size(camera.model_file, view->camera.size, info.size, info.oddities, video);
   if (!fits) return Unexpected(fits.error());
-  auto sidecar = sidecar_of(video);
+  auto sidecar = times_beside(video);
   if (!sidecar) return Unexpected(sidecar.error());
   auto clock = FrameClock::of(info, std::move(*sidecar));
   if (!clock) return Unexpected(clock.error());

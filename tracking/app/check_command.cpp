@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/refusal.h"
@@ -68,7 +69,7 @@ struct Missing {
 
 /// The next step for the user.
 std::string next_step(const Missing& missing, const Rig& rig, const std::string& file) {
-  const std::string arena = " --arena " + file;
+  const std::string arena = " --arena " + command_word(file);
   if (!missing.lenses.empty()) {
     return "film a printed board from 15 or more sides with camera " + missing.lenses.front() +
            ", then `swarmsmith track calibrate camera`; `swarmsmith track print board` prints one";
@@ -171,8 +172,8 @@ ExitCode run(const std::string& file, Output& output) {
                       .text()
                << "\n";
   } else {
-    output.out << file << ": family " << rig->family << ", " << rig->references.size()
-               << " floor tags\n"
+    output.out << file << ": family " << rig->family << ", "
+               << counted(rig->references.size(), "floor tag") << "\n"
                << all.text;
   }
   for (const Error& error : wrong)

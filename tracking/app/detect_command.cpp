@@ -14,6 +14,7 @@
 #include "console/counter.h"
 #include "sim/mission/trajectory_csv.h"
 #include "tracking/app/commands.h"
+#include "tracking/app/written_files.h"
 #include "tracking/detection/tag_detector.h"
 #include "tracking/observing/other_family.h"
 #include "tracking/rig/issue.h"
@@ -167,6 +168,7 @@ void print(const Finds& finds, Output& output) {
 }
 
 ExitCode run(const DetectWords& words, Output& output) {
+  if (const auto flaw = flaw_of_output(words.csv)) return fail(output, ExitCode::Failed, *flaw);
   const auto finds = look(words, output);
   if (!finds) return fail(output, exit_code_of_tracking(finds.error()), finds.error());
   if (words.csv == "-") {

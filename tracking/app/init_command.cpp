@@ -3,6 +3,7 @@
 #include <memory>
 #include <string_view>
 
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "embedded/kArenaTemplate.h"
@@ -45,7 +46,7 @@ ExitCode run(const std::string& folder, Output& output) {
     output.out << file << "\n";
   const std::string arena = (std::filesystem::path(folder) / "arena.toml").string();
   print_note(output, "Write your cameras, floor tags and robots into it; `swarmsmith track check " +
-                         arena + "` then says what comes next.");
+                         command_word(arena) + "` then says what comes next.");
   return ExitCode::Done;
 }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "base/id.h"
 #include "base/plain_text.h"
 #include "base/text/json.h"
+#include "base/text/table_reader.h"
 #include "base/text/whole_file.h"
 #include "console/counter.h"
 #include "tracking/app/commands.h"
@@ -17,6 +17,7 @@
 #include "tracking/app/run_plan.h"
 #include "tracking/app/run_store.h"
 #include "tracking/app/watch_run.h"
+#include "tracking/app/written_files.h"
 #include "tracking/overlay/draw_overlay.h"
 #include "tracking/video/picture_bytes.h"
 #include "tracking/video/video_writer.h"
@@ -136,6 +137,11 @@ Expected<void> write_png(const std::string& path, const ColorImage& image) {
   return write_whole_file(path, *bytes);
 }
 
+bool is_folder(const std::string& out) {
+  std::error_code none;
+  return out.ends_with('/') || fs::is_directory(out, none);
+}
+
 /// Writes the pictures to a video, a folder, or a single picture.
 class Sink {
  public:
@@ -144,7 +150,7 @@ class Sink {
   Expected<void> add(const ColorImage& image, double time_s, double frame_rate) {
     ++count_;
     if (one_) return write_png(out_, image);
-    if (is_folder()) {
+    if (is_folder(out_)) {
       std::error_code ignored;
       fs::create_directories(out_, ignored);
       return write_png((fs::path(out_) / fmt::format("{:06}.png", count_)).string(), image);
@@ -163,11 +169,6 @@ class Sink {
   std::int64_t count() const { return count_; }
 
  private:
-  bool is_folder() const {
-    std::error_code none;
-    return out_.ends_with('/') || fs::is_directory(out_, none);
-  }
-
   std::string out_;
   bool one_;
   std::int64_t count_ = 0;
@@ -188,6 +189,18 @@ Expected<std::int64_t> draw(const DrawnRun& drawn, std::optional<double> at_s,
   if (!source) return Unexpected(source.error());
   const double from_s = at_s.value_or(-kAround_s);
   const double until_s = overlay.duration_s() + kAround_s;
+  constexpr double kRounding_s = 5e-7;  // of the clocks' differences
+  if (at_s && !times.empty()) {
+    const double first_s = times.front() - start_s;
+    const double last_s = std::min(times.back() - start_s, until_s);
+    if (*at_s < first_s - kRounding_s || *at_s > last_s + kRounding_s) {
+      return Unexpected(Error{ErrorKind::BadInput,
+                              fmt::format("the video has no frame there: it shows the run from "
+                                          "{:.2f} s to {:.2f} s",
+                                          first_s, last_s),
+                              "--at"});
+    }
+  }
   Sink sink(words.out, at_s.has_value());
   Counter drawing(output, "drew", "frames");
   std::size_t next = 0;
@@ -196,8 +209,7 @@ Expected<std::int64_t> draw(const DrawnRun& drawn, std::optional<double> at_s,
     if (!more) return Unexpected(more.error());
     if (!*more) break;
     const double time_s = times[frame] - start_s;
-    // Half a microsecond: the rounding error of the clocks' differences.
-    if (time_s < from_s - 5e-7) continue;
+    if (time_s < from_s - kRounding_s) continue;
     if (time_s > until_s) break;
     ColorImage image = (*source)->color();
     draw_overlay(image, view, mission, overlay.at(time_s),
@@ -215,13 +227,13 @@ Expected<std::int64_t> draw(const DrawnRun& drawn, std::optional<double> at_s,
 /// The value of `--at`, in seconds of the run.
 Expected<std::optional<double>> instant_of(const OverlayArguments& words) {
   if (words.at.empty()) return std::optional<double>();
-  double value = 0;
-  const char* const end = words.at.data() + words.at.size();
-  const auto read = std::from_chars(words.at.data(), end, value);
-  if (read.ec != std::errc{} || read.ptr != end || !std::isfinite(value))
-    return bad_input("\"" + words.at + "\" is not a number of seconds", "--at");
+  // As `--start`: 12.4 or "12.4 s".
+  std::optional<double> value = parse_seconds(words.at);
+  if (!value) value = parse_seconds(words.at + " s");
+  if (!value || !std::isfinite(*value))
+    return bad_input("\"" + words.at + "\" is not a time, such as 12.4 or \"12.4 s\"", "--at");
   if (!words.out.ends_with(".png")) return bad_input("one picture is a .png", "-o");
-  return std::optional<double>(value);
+  return value;
 }
 
 ExitCode overlay(const OverlayArguments& words, Output& output) {
@@ -232,6 +244,9 @@ ExitCode overlay(const OverlayArguments& words, Output& output) {
   if (!is_stored && words.run.arena.empty())
     return fail(output, ExitCode::Usage,
                 "a video needs its arena file: --arena FILE; a stored run is called r7");
+  const auto flaw =
+      is_folder(words.out) ? flaw_of_new_folder(words.out) : flaw_of_new_output(words.out);
+  if (flaw) return fail(output, exit_code_of_tracking(*flaw), *flaw);
   auto run = is_stored ? run_of_store(words) : run_of_videos(words, output);
   if (!run) return fail(output, run.error());
   if (const auto wrong = settle_video(words, *run)) return fail(output, *wrong);
@@ -252,14 +267,15 @@ CommandRun declare_overlay(Options& options) {
   constexpr Options::Range kTags{0, 65'535};
   options.words("RUN|VIDEO RUN|FILE", run.videos, "A stored run, r7, or its videos, one per camera",
                 Options::Need::Required);
-  options.text("-o,--output FILE", words->out, "Video (.mp4, .mkv), a folder (DIR/), or one .png",
+  options.text("-o,--output FILE", words->out,
+               "Video (.mp4, .mkv), a folder (DIR/), or one .png; never overwritten",
                Options::Need::Required);
   options.text("--store STORE", run.store, "Store of the run (else SWARMSMITH_STORE)");
   options.text("--video FILE", words->video, "Where a stored run's video is now");
   options.text("--camera CAMERA", words->camera,
                "Camera, if there are several (default: the first)");
   options.text("--at SECONDS", words->at,
-               "Write one picture, N seconds after the start of the run");
+               "Write one picture, at this time after the start of the run: 12.4 s");
   options.text("--arena FILE", run.arena, "Arena file of a run that is not stored");
   options.text("--run FILE", run.run, "Run log of a run that is not stored");
   options.text("--mission MISSION|FILE", run.mission, "Mission, of a run that is not stored");

@@ -14,6 +14,7 @@
 #include "tracking/app/run_store.h"
 #include "tracking/app/score_arguments.h"
 #include "tracking/app/watch_run.h"
+#include "tracking/app/written_files.h"
 #include "tracking/profile/lab_profile.h"
 
 namespace swarmsmith {
@@ -51,8 +52,8 @@ OrRefusal<KnownRun> run_of_store(const ProfileArguments& arguments, const std::s
   if (!kept) return tl::unexpected(kept.error());
   auto run = analyse_again(kept->rows);
   if (!run) return tl::unexpected(std::move(run.error()));
-  const Verdict verdict =
-      kept->overrides.empty() ? run->scored.verdict : kept->overrides.back().verdict;
+  const VerdictOverride* by_person = overriding(kept->overrides);
+  const Verdict verdict = by_person == nullptr ? run->scored.verdict : by_person->verdict;
   return KnownRun{word + " " + kept->rows.name, verdict, std::move(*run)};
 }
 
@@ -185,11 +186,12 @@ std::optional<Error> flaw_of(const std::string& file) {
   }
   if (std::error_code none; std::filesystem::exists(file, none))
     return Error{ErrorKind::BadInput, "is there already; name another file", file};
-  return std::nullopt;
+  return flaw_of_output(file);
 }
 
 ExitCode run(const ProfileArguments& arguments, Output& output) {
-  if (const auto flaw = flaw_of(arguments.file)) return fail(output, ExitCode::Usage, *flaw);
+  if (const auto flaw = flaw_of(arguments.file))
+    return fail(output, exit_code_of_tracking(*flaw), *flaw);
   for (auto word = arguments.runs.begin(); word != arguments.runs.end(); ++word) {
     if (std::find(arguments.runs.begin(), word, *word) != word)
       return fail(output, ExitCode::Usage, {ErrorKind::BadInput, "is named twice", *word});

@@ -10,6 +10,7 @@
 #include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/recording.h"
+#include "tracking/app/sidecar_file.h"
 #include "tracking/app/stop_signal.h"
 #include "tracking/rig/issue.h"
 #include "tracking/video/frame_source.h"
@@ -82,6 +83,17 @@ ExitCode record(const RecordWords& words, Output& output) {
   if (!source) return failed(source.error());
   const SourceInfo& info = (*source)->info();
   const std::optional<double> counted = counting_rate(info, *rate);
+  // As for `score`: what a sidecar says comes first.
+  std::optional<FrameClock> clock;
+  if (!info.is_live) {
+    auto times = times_beside(words.source);
+    if (!times) return failed(times.error());
+    if (*times) {
+      auto of_sidecar = FrameClock::of(info, std::move(*times));
+      if (!of_sidecar) return failed(of_sidecar.error());
+      clock = std::move(*of_sidecar);
+    }
+  }
   VideoOptions options{.codec = words.codec, .live = true};
   // The frame rate in the header of a video with irregular times may be any value.
   if (info.frame_rate > 0) options.frame_rate = std::clamp(info.frame_rate, 1.0, 240.0);
@@ -90,9 +102,11 @@ ExitCode record(const RecordWords& words, Output& output) {
   catch_stop_signals();
   auto writer = VideoWriter::open(words.file, info.size, options);
   if (!writer) return failed(writer.error());
-  Recording recording(
-      **source, std::move(*writer), Sidecar(words.file, info.is_live),
-      {.seconds = *seconds, .rate = counted, .paced = words.realtime && !info.is_live});
+  Recording recording(**source, std::move(*writer), Sidecar(words.file, info.is_live),
+                      {.seconds = *seconds,
+                       .rate = counted,
+                       .clock = std::move(clock),
+                       .paced = words.realtime && !info.is_live});
   Expected<void> done = recording.run(output);
   recording.clear_line(output);
   if (recording.frames() == 0) {

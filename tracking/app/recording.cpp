@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/output_file.h"
+#include "base/plain_text.h"
 #include "console/terminal.h"
 #include "tracking/app/stop_signal.h"
 #include "tracking/rig/issue.h"
@@ -85,15 +86,18 @@ void Recording::remove(const std::string& file) const {
 
 std::string Recording::summary() const {
   const double rate = frames_ > 1 && last_s_ > 0 ? static_cast<double>(frames_ - 1) / last_s_ : 0;
-  return fmt::format("{} frames in {:.1f} s, {:.1f} a second, {} dropped", frames_, last_s_, rate,
-                     dropped());
+  return fmt::format("{} in {:.1f} s, {:.1f} a second, {} dropped", counted(frames_, "frame"),
+                     last_s_, rate, dropped());
 }
 
 Expected<void> Recording::all_frames(Output& output) {
   while (!stop_was_asked_for()) {
     const auto more = source_.next();
     if (!more) return Unexpected(more.error());
-    if (!*more) return {};
+    if (!*more) {
+      if (!options_.clock) return {};
+      return options_.clock->finish(frames_ + dropped());
+    }
     const auto clock = time_of(source_.frame());
     if (!clock) return Unexpected(clock.error());
     if (!first_) {
@@ -109,7 +113,8 @@ Expected<void> Recording::all_frames(Output& output) {
   return {};
 }
 
-Expected<double> Recording::time_of(const Frame& frame) const {
+Expected<double> Recording::time_of(const Frame& frame) {
+  if (options_.clock) return options_.clock->time_of(frame);
   if (frame.time_s) return *frame.time_s;
   if (options_.rate) return static_cast<double>(frame.number) / *options_.rate;
   return Unexpected(error_of(IssueCode::Timestamps,

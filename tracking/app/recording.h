@@ -8,6 +8,7 @@
 
 #include "base/expected.h"
 #include "console/output.h"
+#include "tracking/video/frame_clock.h"
 #include "tracking/video/frame_source.h"
 #include "tracking/video/video_writer.h"
 
@@ -35,9 +36,10 @@ class Sidecar {
 };
 
 struct RecordingOptions {
-  std::optional<double> seconds;  ///< length after which to stop
-  std::optional<double> rate;     ///< frame rate for frames without times
-  bool paced = false;             ///< delay frames until their times
+  std::optional<double> seconds;                   ///< length after which to stop
+  std::optional<double> rate;                      ///< frame rate for frames without times
+  std::optional<FrameClock> clock = std::nullopt;  ///< the times of the source's sidecar
+  bool paced = false;                              ///< delay frames until their times
 };
 
 /// Records one video, from the first frame to the last.
@@ -65,7 +67,7 @@ class Recording {
   using Clock = std::chrono::steady_clock;
 
   Expected<void> all_frames(Output& output);
-  Expected<double> time_of(const Frame& frame) const;
+  Expected<double> time_of(const Frame& frame);
   Expected<void> keep(double time, double clock);
   void wait_until(double time) const;
   void tell(Output& output);

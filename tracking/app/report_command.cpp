@@ -5,6 +5,7 @@
 #include "tracking/app/commands.h"
 #include "tracking/app/run_analysis.h"
 #include "tracking/app/run_store.h"
+#include "tracking/app/written_files.h"
 #include "tracking/report/quality.h"
 
 namespace swarmsmith {
@@ -35,6 +36,9 @@ ExitCode run(const ReportArguments& arguments, Output& output) {
     return fail(output, ExitCode::Usage,
                 "--json prints the report as JSON; name no file, or leave --json out");
   }
+  const std::string file =
+      arguments.file.empty() && !output.json ? arguments.run + ".html" : arguments.file;
+  if (const auto flaw = flaw_of_output(file)) return fail(output, ExitCode::Failed, *flaw);
   const auto kept = kept_run(arguments.store, arguments.run);
   if (!kept) return fail(output, kept.error());
   const RealScoreRow& before = kept->rows.score;

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "base/id.h"
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/robot_files.h"
@@ -35,8 +36,8 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   if (log.notes.empty()) log.notes = before.notes;
   if (log.videos.size() != before.videos.size()) {
     return refused(error_of(IssueCode::Config,
-                            "the run has " + std::to_string(before.videos.size()) +
-                                " videos, the log " + std::to_string(log.videos.size()),
+                            "the run has " + counted(before.videos.size(), "video") + ", the log " +
+                                std::to_string(log.videos.size()),
                             file));
   }
   for (std::size_t i = 0; i < log.videos.size(); ++i) {
@@ -99,6 +100,8 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRow
     auto log = mended_log(arguments.log, stored->log);
     if (!log) return tl::unexpected(std::move(log.error()));
     stored->log = std::move(*log);
+    if (auto named = check_source(stored->log, store_word(arguments.store)); !named)
+      return tl::unexpected(std::move(named.error()));
     std::optional<RanMachine> machine;
     RunLog ran = stored->log;
     if (ran.design.empty() && ran.candidate.empty() && candidate)
@@ -115,6 +118,8 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRow
   if (!errors.empty()) return refused(std::move(errors));
   errors =
       faults_of_rig(rig_of_run(stored->rig, stored->log), stored->log.mission, before.score.biased);
+  for (Error& error : faults_of_points(stored->log))
+    errors.push_back(std::move(error));
   if (!errors.empty()) return refused(std::move(errors));
   auto run = analyse(std::move(stored->observations), stored->rig, std::move(stored->log),
                      before.score.biased);
@@ -123,18 +128,34 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRow
   return Again{std::move(*run), std::move(rows)};
 }
 
-void print_again(const std::string& word, const RealScoreRow& before, const RunFindings& run,
+/// What a person has said of the scoring before, if that no longer counts.
+std::optional<std::string> void_override(const KeptRun& before, const RunFindings& run,
+                                         const std::string& word) {
+  const VerdictOverride* by_person = overriding(before.overrides);
+  if (by_person == nullptr || overriding(run.overrides) != nullptr) return std::nullopt;
+  return "The verdict " + std::string(name_of(by_person->verdict)) + " by " + by_person->who +
+         " no longer counts: inputs or result are not those that " + by_person->who +
+         " saw. Give it again if it still holds: `swarmsmith track override " + word + " --store " +
+         command_word(before.store) + "`.";
+}
+
+void print_again(const std::string& word, const KeptRun& before, const RunFindings& run,
                  bool all_checks, Output& output) {
+  const RealScoreRow& score = before.rows.score;
+  const auto no_longer = void_override(before, run, word);
   if (output.json) {
     JsonObject object;
     object.add("run", word)
-        .add("before", JsonObject().add("score", before.score).add("verdict", before.verdict));
+        .add("before", JsonObject().add("score", score.score).add("verdict", before.verdict()));
     add_result(object, run);
+    if (no_longer) object.add("override", *no_longer);
     output.out << object.text() << "\n";
     return;
   }
-  output.out << word << " was: score " << score_text(before.score) << ", " << before.verdict << "\n"
+  output.out << word << " was: score " << score_text(score.score) << ", " << before.verdict()
+             << "\n"
              << word << " is now: " << result_text(run, all_checks);
+  if (no_longer) print_note(output, *no_longer);
 }
 
 ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word, Output& output) {
@@ -142,12 +163,17 @@ ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word,
   if (!kept) return fail(output, kept.error());
   const auto again = score_again(arguments, kept->rows);
   if (!again) return fail(output, again.error());
-  const auto store = open_store(kept->store, StoreAtRest::IfMissing::Refuse);
+  auto store = open_store(kept->store, StoreAtRest::IfMissing::Refuse);
   if (!store) return fail(output, store.error());
   const auto written = (*store)->rescore_real_run(kept->id, again->rows);
+  store->reset();
   if (!written) return fail(output, ExitCode::Store, written.error());
-  print_again(word, kept->rows.score, again->run.findings(), arguments.all_checks, output);
-  return again->run.scored.verdict == Verdict::Invalid ? ExitCode::InvalidRun : ExitCode::Done;
+  const auto now = kept_run(kept->store, word);
+  if (!now) return fail(output, now.error());
+  RunFindings findings = again->run.findings();
+  findings.overrides = now->overrides;
+  print_again(word, *kept, findings, arguments.all_checks, output);
+  return findings.verdict() == Verdict::Invalid ? ExitCode::InvalidRun : ExitCode::Done;
 }
 
 /// Scores all runs, even if one fails; the first failure decides the exit code.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/control/treads.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/motion/track_run.h"
@@ -67,15 +66,12 @@ void check_start(const Observations& observations, const RunLog& log, std::vecto
             : "`start` could not be checked: " + sync.error().message});
 }
 
-/// Nodes limit commands to the speed in their logs.
-void know_speeds(const std::vector<RobotLog>& logs, TrackLimits& limits) {
+/// The highest speed to which the robots' nodes limited commands; 0 without logs.
+double logged_speed(const std::vector<RobotLog>& logs) {
   double most = 0;
   for (const RobotLog& log : logs)
     most = std::max(most, log.record.head.max_mps);
-  if (!(most > 0)) return;
-  limits.driving_speed_m_s = most;
-  limits.driving_turn_rad_s = 2 * most / kTreadDistance_m;
-  limits.knows_driving_speed = true;
+  return most;
 }
 
 /// Removes the doubt about counted frame times, because the robots' clocks agree with them.
@@ -106,7 +102,7 @@ OrRefusal<AnalysedRun> analyse(Observations observations, const Rig& whole_rig, 
   options.body = log.mission.robot.body.outline;
   options.scored_at_the_end = is_scored_at_the_end(log.mission);
   options.takes_tags_for_centres = takes_tags_for_centres;
-  know_speeds(observations.logs, options.limits);
+  options.limits = limits_of(log.mission.robot.drive, logged_speed(observations.logs));
   auto tracked = track_run(observations, run.rig, log.mission.arena, options);
   if (!tracked) return refused(tracked.error());
   run.tracked = std::move(*tracked);

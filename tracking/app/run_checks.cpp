@@ -1,8 +1,11 @@
 #include "tracking/app/run_checks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/suggestion.h"
+#include "sim/control/reference_model.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
@@ -28,6 +31,20 @@ void check_camera(const Rig& rig, const CameraSetup& camera, std::vector<Error>&
   }
   if (!rig.places.contains(camera.place_file)) {
     lacks(camera.place_file, "`swarmsmith track calibrate arena` makes it");
+  }
+}
+
+/// Adds an error for a robot of the log that the arena does not have, or that did not take part.
+void check_robot(const std::string& robot, const std::string& section, const RunLog& log,
+                 const Rig& rig, std::vector<Error>& errors) {
+  const std::vector<std::string> robots = names_of(rig.robots);
+  if (std::ranges::find(robots, robot) == robots.end()) {
+    errors.push_back(unknown("robot", robot, robots, rig.file));
+  } else if (!log.robots.empty() && std::ranges::find(log.robots, robot) == log.robots.end()) {
+    errors.push_back(error_of(IssueCode::Config,
+                              "the run's list `robots` leaves out \"" + robot + "\", and has: " +
+                                  joined(log.robots) + "; add it there, or take out its " + section,
+                              log.name));
   }
 }
 
@@ -60,24 +77,36 @@ std::vector<Error> settle_names(RunLog& log, const Rig& rig) {
     }
   }
   for (const HandPoint& point : log.points) {
-    const std::vector<std::string> robots = names_of(rig.robots);
-    if (std::ranges::find(robots, point.robot) == robots.end())
-      errors.push_back(unknown("robot", point.robot, robots, rig.file));
+    check_robot(point.robot, "[[point]]", log, rig, errors);
     if (point.camera.empty() ? log.videos.size() > 1
                              : std::ranges::find(cameras, point.camera) == cameras.end()) {
       errors.push_back(unknown("camera", point.camera, cameras, rig.file));
     }
   }
-  for (const RobotNote& note : log.notes) {
-    const std::vector<std::string> robots = log.robots.empty() ? names_of(rig.robots) : log.robots;
-    if (std::ranges::find(robots, note.robot) == robots.end())
-      errors.push_back(unknown("robot", note.robot, robots, rig.file));
+  for (const RobotNote& note : log.notes)
+    check_robot(note.robot, "[[robot]]", log, rig, errors);
+  for (auto robot = log.robots.begin(); robot != log.robots.end(); ++robot) {
+    check_robot(*robot, "name", log, rig, errors);
+    if (std::find(log.robots.begin(), robot, *robot) == robot) continue;
+    errors.push_back(error_of(IssueCode::Config,
+                              "the run's list `robots` has \"" + *robot + "\" twice", log.name));
   }
-  for (const std::string& robot : log.robots) {
-    const std::vector<std::string> robots = names_of(rig.robots);
-    if (std::ranges::find(robots, robot) == robots.end()) {
-      errors.push_back(unknown("robot", robot, robots, rig.file));
-    }
+  return errors;
+}
+
+std::vector<Error> faults_of_points(const RunLog& log) {
+  std::vector<Error> errors;
+  constexpr double kRounding_s = 1e-9;
+  const double duration_s = log.mission.cycles * kControlPeriod_s;
+  for (const HandPoint& point : log.points) {
+    if (point.time_s >= 0 && point.time_s <= duration_s + kRounding_s) continue;
+    errors.push_back(error_of(
+        IssueCode::Config,
+        fmt::format(
+            "the [[point]] of \"{}\" is at {:.2f} s, and the run goes from 0 s to {:.1f} s; "
+            "`time` counts from the start of the run, not of the film",
+            point.robot, point.time_s, duration_s),
+        log.name));
   }
   return errors;
 }

@@ -18,6 +18,9 @@ Error unknown(const std::string& what, const std::string& name,
 /// cameras of videos, and robots that took part. Returns all errors.
 std::vector<Error> settle_names(RunLog& log, const Rig& rig);
 
+/// Points by hand that lie outside of the run. To be called when the mission is known.
+std::vector<Error> faults_of_points(const RunLog& log);
+
 /// The part of the rig for one run: the cameras that filmed it, in the order of the log's videos,
 /// and the robots that took part.
 Rig rig_of_run(const Rig& rig, const RunLog& log);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "base/plain_text.h"
 #include "base/text/whole_file.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/app/run_options.h"
 #include "tracking/app/run_store.h"
+#include "tracking/app/sidecar_file.h"
 #include "tracking/rig/picture_size.h"
 #include "tracking/rig/rig_file.h"
 #include "tracking/scoring/run_patches.h"
@@ -31,17 +33,6 @@ struct VideoFiles {
   std::vector<fs::path> times;  ///< an entry is empty if there is no sidecar
 };
 
-/// The sidecar beside a video, such as "run07.times.csv" beside "run07.mp4", if it exists.
-fs::path sidecar_beside(const fs::path& source) {
-  const fs::path video = file_of_source(source.string());
-  for (fs::path file :
-       {fs::path(video).replace_extension(".times.csv"), fs::path(video).concat(".times.csv")}) {
-    std::error_code trouble;
-    if (fs::exists(file, trouble)) return file;
-  }
-  return {};
-}
-
 OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
   const auto count = log.videos.size();
   if (count == 0) {
@@ -50,13 +41,13 @@ OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
         wrong_option("no video given; name its file, or a run log with [[video]]", "VIDEO"));
   }
   if (!arguments.videos.empty() && arguments.videos.size() != count) {
-    return refused(ExitCode::Usage, wrong_option("the run log has " + std::to_string(count) +
-                                                     " videos; name as many, or none",
+    return refused(ExitCode::Usage, wrong_option("the run log has " + counted(count, "video") +
+                                                     "; name as many, or none",
                                                  "VIDEO"));
   }
   if (!arguments.times.empty() && arguments.times.size() != count) {
-    return refused(ExitCode::Usage, wrong_option("there are " + std::to_string(count) +
-                                                     " videos; give --times for each",
+    return refused(ExitCode::Usage, wrong_option("the run has " + counted(count, "video") +
+                                                     "; give --times once for each",
                                                  "--times"));
   }
   const fs::path folder = fs::path(arguments.run).parent_path();
@@ -73,7 +64,7 @@ OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
     } else if (!video.times.empty()) {
       files.times.push_back(folder / video.times);
     } else {
-      files.times.push_back(sidecar_beside(files.videos.back()));
+      files.times.push_back(sidecar_beside(files.videos.back().string()));
       video.times = files.times.back().filename().string();
     }
   }
@@ -87,6 +78,8 @@ OrRefusal<std::optional<RanMachine>> settle_control(const ScoreArguments& argume
                                                     RunPlan& plan) {
   plan.store = !arguments.into.empty() ? arguments.into : store_word(arguments.store);
   RunLog& log = plan.log;
+  if (auto named = check_source(log, plan.store); !named)
+    return tl::unexpected(std::move(named.error()));
   const bool says_control = !log.design.empty() || !log.candidate.empty();
   if (!arguments.into.empty() && !says_control) plan.if_missing = StoreAtRest::IfMissing::Make;
   if (!plan.store.empty()) {
@@ -215,6 +208,8 @@ OrRefusal<RunPlan> plan_run(const ScoreArguments& arguments) {
   if (!machine) return tl::unexpected(machine.error());
   plan.rig = rig_of_run(plan.whole_rig, plan.log);
   errors = faults_of_rig(plan.rig, plan.log.mission, plan.takes_tags_for_centres);
+  for (Error& error : faults_of_points(plan.log))
+    errors.push_back(std::move(error));
   if (!errors.empty()) return refused(std::move(errors));
   if (auto settled = settle_layout(plan.log); !settled) {
     return tl::unexpected(std::move(settled.error()));

@@ -1,11 +1,15 @@
 #include "tracking/app/run_store.h"
 
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 #include "base/id.h"
+#include "base/plain_text.h"
 #include "sim/control/controller.h"
 #include "sim/files/mission_file.h"
+#include "sim/files/profile_file.h"
 #include "tracking/app/score_arguments.h"
 
 namespace swarmsmith {
@@ -54,8 +58,10 @@ OrRefusal<Mission> mission_of_design(StoreReader& store, DesignId design, const 
                   {}});
 }
 
-Error no_such(const std::string& what, const std::string& store) {
-  return {ErrorKind::NotFound, what + "; `swarmsmith ls " + store + "` lists them", store};
+/// The error for an id that is not in the store. `kind` is one of `swarmsmith ls`.
+Error no_such(const std::string& what, const std::string& kind, const std::string& store) {
+  return {ErrorKind::NotFound,
+          what + "; `swarmsmith ls " + kind + " " + command_word(store) + "` lists them", store};
 }
 
 /// The design's winner.
@@ -65,7 +71,7 @@ OrRefusal<CandidateId> winner_of(StoreReader& reader, const std::string& store, 
   if (!row) return refused(ExitCode::Store, row.error());
   if (!*row) {
     return refused(ExitCode::NoSuchId,
-                   no_such("the store has no design " + to_string(design), store));
+                   no_such("the store has no design " + to_string(design), "designs", store));
   }
   const StoreReader::Cell& best = (**row)[0];
   if (best.type != StoreReader::Cell::Type::Integer) {
@@ -109,14 +115,32 @@ OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log) {
                                  std::to_string(control.candidate.value));
   if (!row) return refused(ExitCode::Store, row.error());
   if (!*row) {
-    return refused(ExitCode::NoSuchId,
-                   no_such("the store has no candidate " + to_string(control.candidate), store));
+    return refused(
+        ExitCode::NoSuchId,
+        no_such("the store has no candidate " + to_string(control.candidate), "candidates", store));
   }
   auto mission = mission_of_design(**reader, design_of(control.candidate), (**row)[0].text);
   if (!mission) return tl::unexpected(std::move(mission.error()));
   control.mission = std::move(*mission);
   control.machine = printed_machine((**row)[1].text, (**row)[2].text);
   return control;
+}
+
+OrRefusal<void> check_source(const RunLog& log, const std::string& store) {
+  const std::vector<std::string> built_in = profile_names();
+  bool is_profile = std::ranges::find(built_in, log.source) != built_in.end();
+  std::error_code trouble;
+  if (!is_profile && !store.empty() && std::filesystem::exists(store, trouble)) {
+    auto reader = read_store(store);
+    if (!reader) return tl::unexpected(std::move(reader.error()));
+    is_profile = (*reader)->kept_profiles().contains(log.source);
+  }
+  if (!is_profile) return {};
+  return refused(error_of(IssueCode::Config,
+                          "`source` is \"" + log.source +
+                              "\", which is a profile of the simulator: scores of this film would "
+                              "look like simulated ones; give it another name, such as \"real\"",
+                          log.name));
 }
 
 OrRefusal<std::unique_ptr<StoreAtRest>> open_store(const std::string& store,
@@ -139,6 +163,11 @@ OrRefusal<std::string> named_store(const std::string& option) {
                   {}});
 }
 
+std::string KeptRun::verdict() const {
+  const VerdictOverride* by_person = overriding(overrides);
+  return by_person == nullptr ? rows.score.verdict : std::string(name_of(by_person->verdict));
+}
+
 OrRefusal<KeptRun> kept_run(const std::string& option, const std::string& word) {
   auto store = named_store(option);
   if (!store) return tl::unexpected(std::move(store.error()));
@@ -153,12 +182,14 @@ OrRefusal<KeptRun> kept_run(const std::string& option, const std::string& word) 
   if (!rows) return refused(ExitCode::NoSuchId, rows.error());
   KeptRun run{std::move(*store), *id, std::move(*rows), {}};
   const auto end = (*reader)->query(
-      "SELECT verdict, who, reason FROM v_real_overrides WHERE id = " + sql_text(word) +
-          " ORDER BY number",
+      "SELECT o.verdict, o.who, o.reason, o.scoring = r.scorings AND o.number = "
+      "(SELECT max(l.number) FROM v_real_overrides AS l WHERE l.run = o.run) "
+      "FROM v_real_overrides AS o JOIN v_real_runs AS r ON r.run = o.run WHERE o.run = " +
+          std::to_string(id->value) + " ORDER BY o.number",
       {}, [](const std::vector<std::string>&) {},
       [&](const std::vector<StoreReader::Cell>& cells) {
         run.overrides.push_back({verdict_from_name(cells[0].text).value_or(Verdict::Invalid),
-                                 cells[1].text, cells[2].text});
+                                 cells[1].text, cells[2].text, cells[3].text == "1"});
       });
   if (!end) return refused(ExitCode::Store, end.error());
   return run;

@@ -24,6 +24,10 @@ struct RanControl {
 /// Exit code 4 if there is none; 3 if the store cannot be read.
 OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log);
 
+/// Refuses a source of filmed runs that has the name of a simulator's profile, built in or of the
+/// store (which need not exist): their scores would look like simulated ones. Exit code 2.
+OrRefusal<void> check_source(const RunLog& log, const std::string& store);
+
 /// Opens the store for writing; exit code 3 if that fails. Waits for a moment if the store is
 /// locked, because another command may hold it only briefly; a running campaign holds it longer.
 OrRefusal<std::unique_ptr<StoreAtRest>> open_store(const std::string& store,
@@ -35,6 +39,9 @@ struct KeptRun {
   RealRunId id;
   RealRunRows rows;
   std::vector<VerdictOverride> overrides;  ///< oldest first
+
+  /// The verdict that counts.
+  std::string verdict() const;
 };
 /// Reads a run by its name, such as r7; exit code 4 if it does not exist. `option` is the value of
 /// `--store`; if it is empty, SWARMSMITH_STORE names the store.

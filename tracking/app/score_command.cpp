@@ -2,12 +2,14 @@
 
 #include "base/id.h"
 #include "base/output_file.h"
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/run_plan.h"
 #include "tracking/app/run_store.h"
 #include "tracking/app/watch_run.h"
+#include "tracking/app/written_files.h"
 #include "tracking/report/quality.h"
 #include "tracking/report/result_text.h"
 
@@ -35,7 +37,7 @@ Expected<void> write_files(const ScoreArguments& arguments, const RunFindings& r
 
 /// The next step for the user.
 std::string next_step(const std::string& id, const std::string& store, Verdict verdict) {
-  const std::string at = id + " --store " + store;
+  const std::string at = id + " --store " + command_word(store);
   if (verdict != Verdict::Invalid) return "Next: `swarmsmith track report " + at + "`.";
   return "Statistics leave out an INVALID score. Next: correct the cause and `swarmsmith track "
          "rescore " +
@@ -70,6 +72,9 @@ void print_result(const RunPlan& plan, const RunFindings& run,
 ExitCode score(const ScoreArguments& arguments, Output& output) {
   const auto own = each_its_own_file({{"--csv", arguments.csv}, {"--report", arguments.report}});
   if (!own) return fail(output, ExitCode::Usage, own.error());
+  for (const std::string& file : {arguments.csv, arguments.report}) {
+    if (const auto flaw = flaw_of_output(file)) return fail(output, ExitCode::Failed, *flaw);
+  }
   auto plan = plan_run(arguments);
   if (!plan) return fail(output, plan.error());
   const auto run = watch_run(*plan, output);

@@ -139,7 +139,7 @@ class Search {
       const double most = 2 * kStanding_px + kMakesUpMuch * speed * interval_s(next);
       if (jump <= most || !stays_away(tag, last, next, jump)) continue;
       ++caught_up;
-      const double fastest = kCornerSpeed_m_s * tag.pixels_per_m * interval_s(next);
+      const double fastest = tag.corner_speed_m_s * tag.pixels_per_m * interval_s(next);
       if (jump > fastest + 2 * kStanding_px) return true;
     }
     return caught_up >= 2;
@@ -305,10 +305,10 @@ class Search {
 
 }  // namespace
 
-Repeats repeats_of(const Observations& observations, int camera,
-                   std::span<const RobotSetup> robots) {
+Repeats repeats_of(const Observations& observations, int camera, std::span<const RobotSetup> robots,
+                   double corner_speed_m_s) {
   const CameraRecord& record = observations.cameras.at(static_cast<std::size_t>(camera));
-  return Search(record.frame_times, tag_ways(observations, camera, robots)).run();
+  return Search(record.frame_times, tag_ways(observations, camera, robots, corner_speed_m_s)).run();
 }
 
 }  // namespace swarmsmith

@@ -10,6 +10,9 @@
 
 namespace swarmsmith {
 
+/// No corner of an RVR's tag is faster: treads reach 0.35 m/s, and turning adds as much again.
+inline constexpr double kCornerSpeed_m_s = 0.7;
+
 /// A period on a camera's clock.
 struct ClockSpan {
   double from_s = 0;
@@ -39,7 +42,7 @@ struct Repeats {
 /// after is not a repeat, since its robots really are where it shows them. But its end is doubtful
 /// if no corner changes by a thousandth of a pixel any more, and it is unknown whether the codec
 /// hides noise.
-Repeats repeats_of(const Observations& observations, int camera,
-                   std::span<const RobotSetup> robots);
+Repeats repeats_of(const Observations& observations, int camera, std::span<const RobotSetup> robots,
+                   double corner_speed_m_s = kCornerSpeed_m_s);
 
 }  // namespace swarmsmith

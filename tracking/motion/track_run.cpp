@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "base/plain_text.h"
 #include "tracking/motion/internal/clock_checks.h"
 #include "tracking/motion/internal/known_errors.h"
 #include "tracking/motion/internal/robot_tags.h"
@@ -164,7 +165,7 @@ void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOp
   for (const auto& [tag, seen] : sightings) {
     if (known.contains(tag)) continue;
     ++count;
-    list += fmt::format("{}{} ({} times)", list.empty() ? "" : ", ", tag, seen.size());
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", tag, counted(seen.size(), "time"));
   }
   run.checks.push_back(answered(
       kUnknown, "", count == 0 ? Check::Outcome::Passed : Check::Outcome::Warned, count, 0));
@@ -211,20 +212,20 @@ Error missing(const TaggedRobot& robot, const RobotSamples& samples, const Frame
   }
   if (samples.twice_unresolved > 0 && of(Sample::Use::Used) == 0) {
     return error_of(IssueCode::DuplicateId,
-                    fmt::format("{} was seen twice in {} frames, from frame {} to frame {}; take "
+                    fmt::format("{} was seen twice in {}, from frame {} to frame {}; take "
                                 "one of the tags away",
-                                who, samples.twice.size(), std::ranges::min(samples.twice),
-                                std::ranges::max(samples.twice)),
+                                who, counted(samples.twice.size(), "frame"),
+                                std::ranges::min(samples.twice), std::ranges::max(samples.twice)),
                     robot.setup.name);
   }
   const auto bad = of(Sample::Use::BadFit);
   if (2 * static_cast<std::size_t>(bad) > samples.samples.size()) {
     return error_of(
         IssueCode::RobotMissing,
-        fmt::format("{} was seen {} times, and in {} of them its tag is not a square of {:g} m at "
+        fmt::format("{} was seen {}, and in {} of them its tag is not a square of {:g} m at "
                     "{:g} m above the floor: it does not lie level, or is bent; mount it flat{}",
-                    who, samples.samples.size(), bad, robot.setup.edge_m, robot.setup.height_m,
-                    causes),
+                    who, counted(samples.samples.size(), "time"), bad, robot.setup.edge_m,
+                    robot.setup.height_m, causes),
         robot.setup.name);
   }
   return error_of(
@@ -344,13 +345,39 @@ std::string_view name_of(CycleKind kind) {
   return "";
 }
 
+void allow_speed(TrackLimits& limits, double speed_m_s, double turn_rad_s) {
+  const TrackLimits usual;
+  const double faster = std::max(1.0, speed_m_s / usual.driving_speed_m_s);
+  const double quicker = std::max(1.0, turn_rad_s / usual.driving_turn_rad_s);
+  limits.driving_speed_m_s = usual.driving_speed_m_s * faster;
+  limits.driving_turn_rad_s = usual.driving_turn_rad_s * quicker;
+  limits.top_speed_m_s = usual.top_speed_m_s * faster;
+  limits.top_turn_rad_s = usual.top_turn_rad_s * quicker;
+  limits.jump_m = usual.jump_m * faster;
+  limits.corner_speed_m_s = usual.corner_speed_m_s * faster;
+}
+
+TrackLimits limits_of(const RobotDrive& drive, double logged_m_s) {
+  double most = drive.max_speed_mps == kMaxWheelSpeed_mps ? 0 : drive.max_speed_mps;
+  // A node that works as in the simulator has the motors' limit in its log.
+  if (logged_m_s != kMaxWheelSpeed_mps) most = std::max(most, logged_m_s);
+  TrackLimits limits;
+  allow_speed(limits, most, 2 * most / drive.track_m);
+  if (!(logged_m_s > 0)) return limits;
+  limits.driving_speed_m_s = logged_m_s;
+  limits.driving_turn_rad_s = 2 * logged_m_s / drive.track_m;
+  limits.knows_driving_speed = true;
+  return limits;
+}
+
 Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig, const Arena& arena,
                                const TrackOptions& asked) {
   const Expected<std::vector<TrackedCamera>> cameras = cameras_of(observations, rig, asked.span);
   if (!cameras) return Unexpected(cameras.error());
   std::vector<Repeats> repeats;
   for (std::size_t c = 0; c < cameras->size(); ++c)
-    repeats.push_back(repeats_of(observations, static_cast<int>(c), rig.robots));
+    repeats.push_back(
+        repeats_of(observations, static_cast<int>(c), rig.robots, asked.limits.corner_speed_m_s));
   FrameReport frames = frame_report(observations, *cameras, repeats, rig, asked);
   const TrackOptions options = for_rate(asked, frames.frame_rate_median);
   TrackedRun run{.covered_s = frames.covered_s,
@@ -393,7 +420,10 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
     run.robots.push_back(tracked_robot(*robot, std::move(samples), tracks.back(), frames, options,
                                        run.issues, run.checks));
     robots.push_back(*robot);
-    if (!each.empty()) judge_agreement(each, *cameras, rig, run);
+    if (!each.empty()) {
+      // Half of a corner's speed is that of the robot.
+      judge_agreement(each, *cameras, rig, options.limits.corner_speed_m_s / 2, run);
+    }
   }
   join(tracks, options.span.cycles, run);
   Findings of_speeds;

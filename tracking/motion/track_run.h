@@ -5,7 +5,9 @@
 
 #include "base/expected.h"
 #include "sim/mission/arena.h"
+#include "sim/robot/robot.h"
 #include "sim/robot/rvr.h"
+#include "tracking/motion/repeats.h"
 #include "tracking/motion/tracked_run.h"
 #include "tracking/observing/observations.h"
 #include "tracking/rig/rig.h"
@@ -47,7 +49,18 @@ struct TrackLimits {
   double driving_speed_m_s = 0.35;
   double driving_turn_rad_s = 4.8;
   bool knows_driving_speed = false;
+  /// No corner of a tag is faster: driving, and turning that adds as much again.
+  double corner_speed_m_s = kCornerSpeed_m_s;
 };
+
+/// Sets the limits for robots that drive and turn as fast as this. All limits on motion grow in the
+/// same proportion; none becomes smaller than its default.
+void allow_speed(TrackLimits& limits, double speed_m_s, double turn_rad_s);
+
+/// The limits for robots with this drive, and with this limit of speed in their logs (0: no logs).
+/// The motors of an RVR could drive it faster than `swarmsmith-robot` lets them, so its own
+/// `max_speed` changes nothing; that of another robot does.
+TrackLimits limits_of(const RobotDrive& drive, double logged_m_s);
 
 struct TrackOptions {
   RunSpan span;

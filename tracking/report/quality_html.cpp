@@ -54,10 +54,16 @@ std::string span_text(const Issue& issue) {
 
 void write_verdict(HtmlPage& page, const RunFindings& run) {
   page.heading(2, fmt::format("Verdict: {}", name_of(run.verdict())));
-  if (!run.overrides.empty()) {
+  if (const VerdictOverride* by_person = overriding(run.overrides)) {
+    page.paragraph(fmt::format("{} has set the verdict to {}: {}. As measured it was {}.",
+                               by_person->who, name_of(by_person->verdict), by_person->reason,
+                               name_of(run.scored.verdict)));
+  } else if (!run.overrides.empty()) {
     const VerdictOverride& last = run.overrides.back();
-    page.paragraph(fmt::format("{} has set the verdict to {}: {}. As measured it was {}.", last.who,
-                               name_of(last.verdict), last.reason, name_of(run.scored.verdict)));
+    page.paragraph(
+        fmt::format("{} had set the verdict to {}: {}. That no longer counts: the run was scored "
+                    "again since, with other inputs or another result.",
+                    last.who, name_of(last.verdict), last.reason));
   }
   for (const std::string& reason : run.scored.reasons)
     page.paragraph(reason);
@@ -138,16 +144,17 @@ void write_robots(HtmlPage& page, const RunFindings& run) {
                                {"from (s)", true},
                                {"Samples", true},
                                {"Dropped", true}}};
-  HtmlTable quality{.caption =
-                        "How well tags fit: measured over declared edge (1 to within 5 %), "
-                        "corners about a rigid square (up to 1.5 mm), estimated noise of "
-                        "the centre and the heading.",
-                    .columns = {{"Robot"},
-                                {"Scale", true},
-                                {"Residual (mm)", true},
-                                {"Sigma x, y (mm)", true},
-                                {"Sigma heading (deg)", true},
-                                {"Tag's offset x, y (mm) and date"}}};
+  HtmlTable quality{
+      .caption =
+          "How well tags fit: measured over declared edge (over 1 % off is a warning, over "
+          "3 % an error), corners about a rigid square (up to 1.5 mm), estimated noise of "
+          "the centre and the heading.",
+      .columns = {{"Robot"},
+                  {"Scale", true},
+                  {"Residual (mm)", true},
+                  {"Sigma x, y (mm)", true},
+                  {"Sigma heading (deg)", true},
+                  {"Tag's offset x, y (mm) and date"}}};
   HtmlTable borders{.caption = "Distance to the nearest border at the end (mm), positive inside",
                     .columns = {{"Robot"}, {"Distance and border"}}};
   for (const RobotFinding& robot : run.robots) {

@@ -178,8 +178,10 @@ Json checks_json(const RunFindings& run) {
 Json overrides_json(const RunFindings& run) {
   Json overrides = Json::array();
   for (const VerdictOverride& each : run.overrides) {
-    overrides.push_back(
-        {{"verdict", name_of(each.verdict)}, {"who", each.who}, {"reason", each.reason}});
+    overrides.push_back({{"verdict", name_of(each.verdict)},
+                         {"who", each.who},
+                         {"reason", each.reason},
+                         {"counts", each.counts}});
   }
   return overrides;
 }

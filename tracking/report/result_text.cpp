@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "base/text/toml_text.h"
 #include "sim/mission/trajectory_csv.h"
@@ -28,7 +29,7 @@ std::string robot_text(const RobotFinding& robot, std::size_t width) {
                   tracked.name, width, tracked.tag, 100 * robot.share(CycleKind::Measured),
                   tracked.longest_gap_s, millimetres(tracked.sigma.sigma_m));
   if (const auto missing = robot.cycles(CycleKind::Missing); missing > 0)
-    text += fmt::format("  {} cycles missing", missing);
+    text += fmt::format("  {} missing", counted(missing, "cycle"));
   if (robot.border != nullptr) {
     text += fmt::format("  {} {} its border{}", millimetres(std::abs(robot.border->signed_m)),
                         robot.border->signed_m >= 0 ? "inside" : "outside",
@@ -99,9 +100,13 @@ std::string checks_text(const std::vector<Check>& checks, bool all) {
                             all ? "" : "; --checks lists them");
 }
 
-/// The verdict as text: "VALID; not checked: length of the film".
-std::string verdict_text(const ScoredRun& scored) {
-  std::string text(name_of(scored.verdict));
+/// The verdict as text: "VALID; not checked: length of the film", "VALID by A. Person (DEGRADED
+/// measured)".
+std::string verdict_text(const RunFindings& run) {
+  const ScoredRun& scored = run.scored;
+  std::string text(name_of(run.verdict()));
+  if (const VerdictOverride* by_person = overriding(run.overrides))
+    text += fmt::format(" by {} ({} measured)", by_person->who, name_of(scored.verdict));
   if (scored.biased) text += ", BIASED (tags taken for centres)";
   const std::vector<std::string> missing = unasked(scored.checks);
   if (!missing.empty()) text += fmt::format("; not checked: {}", fmt::join(missing, ", "));
@@ -151,7 +156,7 @@ std::string score_text(const std::optional<double>& score) {
 std::string result_text(const RunFindings& run, bool all_checks) {
   const ScoredRun& scored = run.scored;
   std::string text = fmt::format("{}: {}, score {}, {}\n", run.log.name, run.log.mission.name,
-                                 score_text(scored.score), verdict_text(scored));
+                                 score_text(scored.score), verdict_text(run));
   std::size_t width = 4;
   for (const RobotFinding& robot : run.robots)
     width = std::max(width, robot.tracked->name.size());
@@ -174,7 +179,8 @@ void add_result(JsonObject& object, const RunFindings& run) {
   object.add("name", run.log.name)
       .add("mission", run.log.mission.name)
       .add("score", run.scored.score)
-      .add("verdict", name_of(run.scored.verdict))
+      .add("verdict", name_of(run.verdict()))
+      .add("measured_verdict", name_of(run.scored.verdict))
       .add("biased", run.scored.biased)
       .add("reasons", run.scored.reasons)
       .add("robots", json_list(run.robots, robot_json))

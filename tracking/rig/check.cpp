@@ -59,7 +59,8 @@ std::string limit_text(const Check& check) {
   // A passed check has its value on the good side of the limit, any other check on the bad side;
   // this shows whether the limit is a minimum or a maximum.
   const bool is_over = *check.value > *check.limit;
-  const bool is_least = is_over == (check.outcome == Check::Outcome::Passed);
+  const bool is_least =
+      check.limit_is_least.value_or(is_over == (check.outcome == Check::Outcome::Passed));
   return (is_least ? "at least " : "at most ") + text;
 }
 

@@ -26,6 +26,9 @@ struct Check {
   std::string unit;             ///< "mm", "s", "%"; empty for a plain number
   std::string catches;          ///< the mistake it finds: "a film at the wrong speed"
   std::string reason;           ///< why it could not be done; empty for all other outcomes
+  /// Whether the limit is the least value. Without it, it follows from outcome and value; that is
+  /// wrong only for a check that can fail for another reason than its value.
+  std::optional<bool> limit_is_least = std::nullopt;
 
   friend bool operator==(const Check&, const Check&) = default;
 };

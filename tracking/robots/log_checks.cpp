@@ -91,6 +91,7 @@ void ask(const RobotLog& log, const std::optional<Latency>& latency,
   const Outcome motion = worst_of(issues, robot, {IssueCode::MotionUnlikeLog});
   if (latency && latency->agreement) {
     checks.push_back(answered(kMotion, robot, motion, *latency->agreement, kLeastAgreement));
+    checks.back().limit_is_least = true;
   } else if (motion != Outcome::Passed) {
     checks.push_back(answered(kMotion, robot, motion));
   } else {

@@ -177,7 +177,7 @@ class Judge {
     const Gain& way = reality.slip.way;
     if (way.gain && way.is_against) {
       add(IssueCode::TagTurned, known,
-          "its camera sees it drive back where it is commanded to drive ahead; is its tag "
+          "the camera sees it drive backwards where it is commanded to drive ahead; is its tag "
           "turned by 180 degrees since it was calibrated, or do its treads turn the wrong way?");
     } else if (is_off(way)) {
       add(IssueCode::MotionUnlikeLog, known,

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/math.h"
+#include "base/plain_text.h"
 #include "sim/control/treads.h"
 #include "tracking/robots/intervals.h"
 
@@ -109,9 +110,9 @@ Gain gain_of(const std::vector<Pair>& pairs, const std::string& what) {
   };
   if (gain.seconds < kLeastSeconds || blocks.size() < kLeastBlocks) {
     return not_told(fmt::format(
-        "it {} steadily and free of walls and other robots for {:.1f} s in {} places of the run, "
+        "it {} steadily and free of walls and other robots for {:.1f} s in {} of the run, "
         "and {:g} s in {} are needed",
-        what, gain.seconds, blocks.size(), kLeastSeconds, kLeastBlocks));
+        what, gain.seconds, counted(blocks.size(), "place"), kLeastSeconds, kLeastBlocks));
   }
   if (gain.error > kLargestError) {
     return not_told(fmt::format("it would be known to {:.1f} %, and {:g} % are allowed",

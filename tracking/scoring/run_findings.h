@@ -66,7 +66,14 @@ struct VerdictOverride {
   Verdict verdict = Verdict::Valid;
   std::string who;
   std::string reason;
+  bool counts = true;  ///< false: another decision or another scoring came later
 };
+
+/// The decision that counts; null if there is none.
+inline const VerdictOverride* overriding(const std::vector<VerdictOverride>& overrides) {
+  const auto last = std::ranges::find(overrides, true, &VerdictOverride::counts);
+  return last == overrides.end() ? nullptr : &*last;
+}
 
 /// All findings on a scored run, computed once for text, JSON, pages and rows of stores.
 struct RunFindings {
@@ -77,11 +84,14 @@ struct RunFindings {
   const ScoredRun& scored;
   std::vector<RobotFinding> robots = {};        ///< in the order of `tracked`
   std::vector<CameraFinding> cameras = {};      ///< in the order of `observations`
-  std::vector<VerdictOverride> overrides = {};  ///< oldest first; the last one counts
+  std::vector<VerdictOverride> overrides = {};  ///< oldest first; at most one counts
   std::string program = {};  ///< the scoring program, with the versions of its libraries
 
-  /// The verdict that counts: the last override, or the computed verdict.
-  Verdict verdict() const { return overrides.empty() ? scored.verdict : overrides.back().verdict; }
+  /// The verdict that counts: the override that does, or the computed verdict.
+  Verdict verdict() const {
+    const VerdictOverride* by_person = overriding(overrides);
+    return by_person == nullptr ? scored.verdict : by_person->verdict;
+  }
 };
 
 /// The arguments must outlive the findings, and must not be moved.

@@ -12,6 +12,11 @@
 namespace swarmsmith {
 namespace {
 
+/// "15.0 mm", "1.2 m".
+std::string length_text(double metres) {
+  return metres < 1 ? fmt::format("{:.1f} mm", 1000 * metres) : fmt::format("{:.1f} m", metres);
+}
+
 constexpr Question kBorder{"border at the end", "mm", "a robot that may stand on the other side"};
 constexpr Question kPatches{"places of the patches", "",
                             "colour patches that are not the mission's"};
@@ -65,10 +70,11 @@ void measure_borders(const TrackedRun& run, const Mission& mission, const Arena&
     if (!is_close) continue;
     scored.issues.push_back(
         {IssueCode::TooCloseToCall,
-         fmt::format("{} ends {:.1f} mm from the border of the {}, and is known to {:.1f} mm (3 "
-                     "sigma): it counts {:g} and may count {:g}; look at the last frame",
-                     robot.name, 1000 * nearest->distance_m, nearest->name,
-                     1000 * kSigmas * sigma_m, nearest->here, nearest->beyond),
+         fmt::format(
+             "{} ends {} from the border of the {}, and is known to {} (3 sigma): it counts "
+             "{:g} and may count {:g}; look at the last frame",
+             robot.name, length_text(nearest->distance_m), nearest->name,
+             length_text(kSigmas * sigma_m), nearest->here, nearest->beyond),
          robot.name});
   }
 }

@@ -117,6 +117,48 @@ class BadInput(unittest.TestCase):
         self.assertEqual(before, {file: file.read_bytes() for file in before})
         self.assertEqual(notes.read_text(), "of a person")
 
+    def test_calibrations_and_overlays_overwrite_nothing_else(self):
+        """Files that the command does not read; a calibration of the same kind is replaced."""
+        log = LAB.film("good")
+        copy = LAB.copy_of_lab(f"{self.folder.name}/lab")
+        other = copy.with_name("other.toml")
+        other.write_text(copy.read_text())
+        film = self.folder / "film.mkv"
+        shutil.copy(log.parent / "good.mkv", film)
+        notes = self.folder / "pictures"
+        notes.mkdir()
+        (notes / "000001.png").write_bytes(b"of a person")
+        drawn = ("overlay", log.parent / "good.mkv", "--arena", copy, "--run", log)
+        again = ("calibrate", "arena", "--again", "--arena", copy)
+        spin = ("calibrate", "robot", "rvr1", "--spin", LAB.lab / "rvr1.spin.mkv", "--arena", copy)
+        before = {file: file.read_bytes() for file in (*copy.parent.iterdir(), film, notes / "000001.png")}
+        for command in ((*drawn, "-o", film), (*drawn, "-o", notes), (*drawn, "-o", f"{notes}/"),
+                        (*drawn, "--at", "1", "-o", notes / "000001.png"), (*again, "-o", other), (*again, "-o", log),
+                        (*spin, "-o", copy.with_name("rvr2.offset.toml")), (*spin, "-o", other)):
+            done = call(TRACK, *command)
+            self.assertEqual(done.returncode, 2, f"{command}: {done.stdout}")
+            self.assertIn("is there already", done.stderr)
+        self.assertEqual(before, {file: file.read_bytes() for file in before})
+        place = self.folder / "place.toml"
+        for _ in range(2):
+            done = call(TRACK, *again, "-o", place)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_files_to_write_are_tried_before_the_work(self):
+        log = LAB.film("good")
+        arena = LAB.lab / "arena.toml"
+        missing = self.folder / "missing"
+        for words in (("score", "--run", log, "--arena", arena, "--into", self.store, "--csv", missing / "a.csv"),
+                      ("score", "--run", log, "--arena", arena, "--into", self.store, "--report", missing / "a.html"),
+                      ("detect", log.parent / "good.mkv", "--csv", missing / "a.csv"),
+                      ("calibrate", "arena", "--again", "--arena", arena, "-o", missing / "a.toml"),
+                      ("overlay", log.parent / "good.mkv", "--run", log, "--arena", arena, "-o", missing / "a.mkv"),
+                      ("report", "r1", "--store", self.store, "-o", missing / "a.html")):
+            done = call(TRACK, *words)
+            self.assertEqual(done.returncode, 1, f"{words}: {done.stdout}")
+            self.assertIn(f"there is no folder {missing}", done.stderr)
+        self.assertFalse(self.store.exists())
+
     def test_a_link_that_leads_nowhere_is_followed(self):
         link = self.folder / "link.csv"
         link.symlink_to("target.csv")
@@ -340,6 +382,34 @@ class BadInput(unittest.TestCase):
             self.assert_refused(self.score(LAB.film("good"), arena=arena), "E_CONFIG", wanted,
                                 r"arena\.toml:\d+:\d+", exit_code=2)
 
+    def test_source_that_is_a_profile_of_the_simulator(self):
+        text = LAB.film("good").read_text()
+        source = re.search(r"^source = .*$", text, re.M)
+        for profile in ("rvr", "argos3"):
+            log = (self.changed_log(LAB.film("good"), (source[0], f'source = "{profile}"')) if source else
+                   self.changed_log(LAB.film("good"), ('start = ', f'source = "{profile}"\nstart = ')))
+            self.assert_refused(self.score(log), "E_CONFIG", f'`source` is "{profile}", which is a profile', exit_code=2)
+        self.assertEqual(self.score(LAB.film("good")).returncode, 0)
+        again = call(TRACK, "rescore", "r1", "--store", self.store, "--run", log)
+        self.assertEqual(again.returncode, 2, again.stdout)
+        self.assertIn("is a profile of the simulator", again.stderr)
+
+    def test_points_and_robots_that_the_run_does_not_have(self):
+        def point(time, robot="rvr1"):
+            return f'[[point]]\nrobot = "{robot}"\ntime = "{time} s"\nu = 400\nv = 300\nwho = "A"\n'
+        three = 'robots = ["rvr1", "rvr2", "rvr3"]\n'
+        for robots, sections, wanted in (
+                (three, point(-0.5), r'\[\[point\]\] of "rvr1" is at -0\.50 s, and the run goes from 0 s to'),
+                (three, point(500), r'is at 500\.00 s, and the run goes'),
+                ('robots = ["rvr1", "rvr2"]\n', point(1, "rvr3"), r'`robots` leaves out "rvr3", and has: rvr1, rvr2'),
+                ('robots = ["rvr1", "rvr2"]\n', '[[robot]]\nname = "rvr3"\nverdict = "VALID"\n',
+                 r'`robots` leaves out "rvr3", .* take out its \[\[robot\]\]'),
+                ('robots = ["rvr1", "rvr2", "rvr3", "rvr2"]\n', "", r'`robots` has "rvr2" twice')):
+            log = self.changed_log(LAB.film("good"))
+            text = re.sub(r"^robots = .*\n", "", log.read_text(), flags=re.M)
+            log.write_text(text.replace("start = ", robots + "start = ", 1) + "\n" + sections)
+            self.assert_refused(self.score(log), "E_CONFIG", wanted, exit_code=2)
+
     def test_run_without_a_begin(self):
         log = self.changed_log(LAB.film("good"), ('start = "1.2 s"\n', ""))
         self.assert_refused(self.score(log), "E_CONFIG", "the start of the run is unknown", exit_code=2)
@@ -396,6 +466,24 @@ class BadInput(unittest.TestCase):
                     "--who", "M. Muster", "--reason", "robot pushed by hand")
         self.assertEqual(word.returncode, 0, word.stderr)
         self.assertEqual(runs_in(self.store), before)
+        # The same again is what that person saw: all that say a verdict say that one.
+        again = call(TRACK, "rescore", "r1", "--store", self.store, "--json")
+        self.assertEqual(again.returncode, 6, again.stderr)
+        said = json.loads(again.stdout)
+        self.assertEqual((said["before"]["verdict"], said["verdict"], said["measured_verdict"]),
+                         ("INVALID", "INVALID", before[0][1]))
+        # Other inputs are another scoring.
+        arena = LAB.copy_of_lab(f"{self.folder.name}/mended",
+                                rvr1_offset_toml=[("x = 0.07", "x = 0.0701")])
+        other = call(TRACK, "rescore", "r1", "--store", self.store, "--arena", arena)
+        self.assertEqual(other.returncode, 0, other.stderr)
+        self.assertIn("r1 was: score", other.stdout)
+        self.assertIn("The verdict INVALID by M. Muster no longer counts", other.stderr)
+        self.assertIn("swarmsmith track override r1", other.stderr)
+        report = json.loads(call(TRACK, "report", "r1", "--store", self.store, "--json").stdout)
+        self.assertEqual(report["verdict"], report["measured_verdict"])
+        self.assertNotEqual(report["verdict"], "INVALID")
+        self.assertFalse(report["overrides"][0]["counts"])
 
 
 if __name__ == "__main__":

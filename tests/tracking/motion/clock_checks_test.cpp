@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
@@ -250,6 +251,43 @@ TEST(FilmSpeedTest, NothingDrivesFasterThanItCan) {
     seen.options.limits.knows_driving_speed = true;
     EXPECT_NE(find_issue(seen.track().value(), IssueCode::FilmTooFast), nullptr) << share;
   }
+}
+
+TEST(FilmSpeedTest, FasterRobotsMayDriveFaster) {
+  const auto twice = [](int robot, double time_s) { return on_circle(robot, 2 * time_s); };
+  SeenRun seen = seen_run(twice, kFilm);
+  ASSERT_NE(find_issue(seen.track().value(), IssueCode::FilmSpeed), nullptr);
+  allow_speed(seen.options.limits, 0.8, 11);
+  const TrackedRun run = seen.track().value();
+  for (const IssueCode code : {IssueCode::FilmSpeed, IssueCode::Gap, IssueCode::Outliers,
+                               IssueCode::PicturesRepeated, IssueCode::ClockStep})
+    EXPECT_EQ(find_issue(run, code), nullptr) << name_of(code);
+  const auto check = std::ranges::find(run.checks, "speed of the robots", &Check::name);
+  ASSERT_NE(check, run.checks.end());
+  EXPECT_LT(*check->value, 1.15);
+}
+
+TEST(FilmSpeedTest, LimitsAreThoseOfTheMissionsRobotAndOfTheLogs) {
+  const TrackLimits usual;
+  const RobotDrive rvr;
+  RobotDrive slow;
+  slow.max_speed_mps = 0.12;
+  RobotDrive fast;
+  fast.max_speed_mps = 0.7;
+  for (const auto& [drive, logged] : {std::pair(rvr, 0.0), std::pair(slow, 0.0),
+                                      std::pair(rvr, 0.35), std::pair(rvr, kMaxWheelSpeed_mps)}) {
+    const TrackLimits limits = limits_of(drive, logged);
+    EXPECT_EQ(limits.driving_speed_m_s, logged > 0 ? logged : usual.driving_speed_m_s);
+    EXPECT_EQ(limits.top_speed_m_s, usual.top_speed_m_s);
+    EXPECT_EQ(limits.top_turn_rad_s, usual.top_turn_rad_s);
+    EXPECT_EQ(limits.jump_m, usual.jump_m);
+    EXPECT_EQ(limits.corner_speed_m_s, usual.corner_speed_m_s);
+    EXPECT_EQ(limits.knows_driving_speed, logged > 0);
+  }
+  EXPECT_DOUBLE_EQ(limits_of(fast, 0).driving_speed_m_s, 0.7);
+  EXPECT_DOUBLE_EQ(limits_of(fast, 0).top_speed_m_s, 2);
+  EXPECT_DOUBLE_EQ(limits_of(rvr, 0.7).top_speed_m_s, 2);
+  EXPECT_DOUBLE_EQ(limits_of(rvr, 0.7).driving_speed_m_s, 0.7);
 }
 
 TEST(ChecksTest, EachQuestionIsThereWhetherItPassesOrNot) {

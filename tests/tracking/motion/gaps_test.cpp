@@ -156,6 +156,31 @@ TEST(HandPointTest, BridgesAGapAndIsMarked) {
   EXPECT_EQ(run.robots[0].cycles[104], CycleKind::Measured);
 }
 
+TEST(HandPointTest, WhereTheTagWasSeenItChangesNothing) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 300});
+  seen.hide(2, 10, 11.2);
+  seen.options.points.push_back(seen_by_a_person(seen, 1, 10.6));
+  const TrackedRun before = seen.track().value();
+  seen.options.points.push_back(seen_by_a_person(seen, 1, 20.03));
+  seen.options.points.back().middle.u += 40;
+  seen.options.points.push_back(seen_by_a_person(seen, 2, 9.97));
+  const TrackedRun run = seen.track().value();
+  for (int cycle = 1; cycle <= 300; ++cycle) {
+    for (std::size_t robot = 0; robot < run.robots.size(); ++robot)
+      EXPECT_EQ(run.trajectory.at(cycle - 1)[robot], before.trajectory.at(cycle - 1)[robot]);
+  }
+  const Issue* by_hand = find_issue(run, IssueCode::ByHand);
+  ASSERT_NE(by_hand, nullptr);
+  EXPECT_THAT(by_hand->text, HasSubstr("1 time at 10.60 s (A. Person)"));
+  std::vector<std::string> odd;
+  for (const Issue& issue : run.issues) {
+    if (issue.code == IssueCode::FilmOdd) odd.push_back(issue.text);
+  }
+  ASSERT_EQ(odd.size(), 2U);
+  EXPECT_THAT(odd[0], HasSubstr("1 time at 20.03 s (A. Person), although a camera saw its tag"));
+  EXPECT_THAT(odd[1], HasSubstr("9.97 s"));
+}
+
 TEST(HandPointTest, WithoutAHeadingGoesOnAsItsNeighbours) {
   SeenRun seen = seen_run(on_circle, {.cycles = 300});
   seen.hide(2, 10, 11.2);

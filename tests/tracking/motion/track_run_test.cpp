@@ -288,7 +288,7 @@ TEST(TrackRunTest, ListsTagsThatNobodyDeclared) {
   const TrackedRun run = seen.track().value();
   ASSERT_EQ(run.issues.size(), 1U);
   EXPECT_EQ(run.issues[0].code, IssueCode::UnknownTags);
-  EXPECT_THAT(run.issues[0].text, HasSubstr("7 (1 times), 44 (2 times)"));
+  EXPECT_THAT(run.issues[0].text, HasSubstr("7 (1 time), 44 (2 times)"));
 }
 
 TEST(TrackRunTest, SaysWhenARobotLeftTheArena) {

@@ -146,6 +146,17 @@ TEST(QualityTest, AnOverrideCountsAboveTheVerdict) {
   EXPECT_THAT(page, HasSubstr("A. Person has set the verdict to VALID: seen on the film"));
 }
 
+TEST(QualityTest, AnOverrideOfAnEarlierScoringDoesNotCount) {
+  MadeUpRun run;
+  run.overrides = {{Verdict::Valid, "A. Person", "seen on the film", false}};
+  const Json report = Json::parse(quality_json(run.reported()));
+  EXPECT_EQ(report["verdict"], "DEGRADED");
+  EXPECT_EQ(report["overrides"][0]["counts"], false);
+  EXPECT_THAT(quality_html(run.reported()),
+              HasSubstr("A. Person had set the verdict to VALID: seen on the film. That no longer "
+                        "counts"));
+}
+
 TEST(QualityTest, PageSaysTheVerdictFirst) {
   const MadeUpRun run;
   const std::string page = quality_html(run.reported());

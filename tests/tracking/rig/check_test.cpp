@@ -47,5 +47,15 @@ TEST(CheckTest, WhatCouldNotBeAskedIsNamedOnceAndOfWhomIfNotOfAll) {
   EXPECT_THAT(unasked({}), IsEmpty());
 }
 
+TEST(LimitTest, ACheckMayFailForAnotherReasonThanItsValue) {
+  Check check{.name = "motion as commanded",
+              .outcome = Check::Outcome::Warned,
+              .value = 0.999,
+              .limit = 0.5};
+  EXPECT_EQ(limit_text(check), "at most 0.5");
+  check.limit_is_least = true;
+  EXPECT_EQ(limit_text(check), "at least 0.5");
+}
+
 }  // namespace
 }  // namespace swarmsmith

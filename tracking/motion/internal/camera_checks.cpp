@@ -171,7 +171,8 @@ FrameReport frame_report(const Observations& observations, std::span<const Track
     slack = std::max(slack, 1.5 * frames.usual_s);
     check_rate(frames, dropped, cameras[c].name, options.limits, report);
     check_clock(
-        {record, cameras[c], repeats[c], tag_ways(observations, static_cast<int>(c), rig.robots),
+        {record, cameras[c], repeats[c],
+         tag_ways(observations, static_cast<int>(c), rig.robots, options.limits.corner_speed_m_s),
          options.span.lengths_s.empty() ? std::nullopt : options.span.lengths_s[c], duration},
         of_clocks);
     check_camera(record, cameras[c], rig, options, report.issues, report.checks);

@@ -88,7 +88,7 @@ class Film {
     for (std::size_t i = 0; i < size(); ++i) {
       if (const auto speed = velocity(tag, i, 1)) speeds.push_back(speed->norm() / 2);
     }
-    const double least = kCornerSpeed_m_s / 4 * tag.pixels_per_m;
+    const double least = tag.corner_speed_m_s / 4 * tag.pixels_per_m;
     if (speeds.empty()) return least;
     const auto high =
         speeds.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(speeds.size() - 1));
@@ -146,7 +146,7 @@ class Film {
 
   bool beats_top_speed(const TagWay& tag, std::size_t i) const {
     return corners_moved(seen(tag, i - 1)->corners, seen(tag, i)->corners) >
-           kCornerSpeed_m_s * tag.pixels_per_m * (time(i) - time(i - 1)) + kLeastStep_px;
+           tag.corner_speed_m_s * tag.pixels_per_m * (time(i) - time(i - 1)) + kLeastStep_px;
   }
 
  private:

@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/math.h"
+#include "base/plain_text.h"
 #include "tracking/motion/internal/robot_track.h"
 
 namespace swarmsmith {
@@ -210,9 +211,9 @@ void check_bridged(const RobotTrack& track, const std::vector<Gap>& gaps, const 
   if (guessed == 0 || gaps.empty()) return;
   const auto longest = std::ranges::max_element(gaps, {}, &Gap::length_s);
   complaints.add(IssueCode::Interpolated,
-                 fmt::format("has {} cycles across gaps of more than {:.1f} s or at the ends of "
+                 fmt::format("has {} across gaps of more than {:.1f} s or at the ends of "
                              "the video",
-                             guessed, limits.bridged_gap_s),
+                             counted(guessed, "cycle"), limits.bridged_gap_s),
                  longest->from_s, longest->to_s);
 }
 
@@ -274,30 +275,49 @@ std::int64_t check_outliers(const TrackedRobot& robot, Complaints& complaints) {
   return robot.outliers + bad_fits;
 }
 
-void check_by_hand(const RobotTrack& track, const std::vector<HandPoint>& points,
-                   const std::string& robot, Complaints& complaints) {
-  if (track.by_hand_s.empty()) return;
+/// Who marked the robot at these times: "A. Person, B. Person".
+std::string who_marked(const std::vector<double>& times_s, const std::vector<HandPoint>& points,
+                       const std::string& robot) {
   std::string who;
   for (const HandPoint& point : points) {
     if (point.robot != robot || who.find(point.who) != std::string::npos) continue;
+    if (std::ranges::find(times_s, point.time_s) == times_s.end()) continue;
     who += (who.empty() ? "" : ", ") + point.who;
   }
-  const auto [first, last] = std::ranges::minmax(track.by_hand_s);
-  complaints.add(IssueCode::ByHand,
-                 fmt::format("was put where a person saw it, {} times from {:.2f} s to {:.2f} s "
-                             "({})",
-                             track.by_hand_s.size(), first, last, who),
-                 first, last);
+  return who;
+}
+
+/// "at 3.00 s", or "from 3.00 s to 4.00 s".
+std::string when_text(const std::vector<double>& times_s) {
+  const auto [first, last] = std::ranges::minmax(times_s);
+  if (first == last) return fmt::format("at {:.2f} s", first);
+  return fmt::format("from {:.2f} s to {:.2f} s", first, last);
+}
+
+void check_by_hand(const RobotTrack& track, const std::vector<HandPoint>& points,
+                   const std::string& robot, Complaints& complaints) {
+  const auto add = [&](IssueCode code, const std::vector<double>& times_s, const char* more) {
+    if (times_s.empty()) return;
+    const auto [first, last] = std::ranges::minmax(times_s);
+    complaints.add(
+        code,
+        fmt::format("was put where a person saw it, {} {} ({}){}", counted(times_s.size(), "time"),
+                    when_text(times_s), who_marked(times_s, points, robot), more),
+        first, last);
+  };
+  add(IssueCode::ByHand, track.by_hand_s, "");
+  add(IssueCode::FilmOdd, track.unneeded_s,
+      ", although a camera saw its tag then: these points by hand change nothing and are not used");
 }
 
 void check_cameras(const RobotTrack& track, Complaints& complaints) {
   if (track.disagreeing == 0) return;
   complaints.add(
       IssueCode::CamerasDisagree,
-      fmt::format("is seen by cameras more than {:.0f} mm apart in {} cycles, most {:.1f} mm at "
+      fmt::format("is seen by cameras more than {:.0f} mm apart in {}, most {:.1f} mm at "
                   "{:.1f} s; check their clocks and calibrate their places again",
-                  1000 * kDisagree_m, track.disagreeing, 1000 * track.worst_disagreement_m,
-                  track.worst_disagreement_at_s));
+                  1000 * kDisagree_m, counted(track.disagreeing, "cycle"),
+                  1000 * track.worst_disagreement_m, track.worst_disagreement_at_s));
 }
 
 }  // namespace

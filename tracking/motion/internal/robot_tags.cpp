@@ -27,8 +27,6 @@ constexpr double kHarmless_m = 0.005;
 constexpr double kDegree = kPi / 180;
 /// The largest error of a heading (robot_travel.cpp).
 constexpr double kHeading_rad = 5 * kDegree;
-/// Speed at which a robot moves while a rolling shutter reads the rows between its tags.
-constexpr double kDriving_m_s = 0.35;
 /// Number of pictures in a stretch, and the smallest number that is enough for a result.
 constexpr std::size_t kStretch = 15;
 constexpr std::size_t kLeast = 5;
@@ -139,7 +137,7 @@ struct Difference {
 
 std::vector<Difference> differences_of(const OneOfTags& a, const OneOfTags& b, const Noise& noise_a,
                                        const Noise& noise_b, std::span<const TrackedCamera> cameras,
-                                       const Rig& rig) {
+                                       const Rig& rig, double driving_m_s) {
   const std::pair of_both{a.tag.setup.height_m, b.tag.setup.height_m};
   std::map<std::pair<int, std::int64_t>, const Sample*> seen;
   for (const Sample& sample : a.samples.samples) {
@@ -163,7 +161,7 @@ std::vector<Difference> differences_of(const OneOfTags& a, const OneOfTags& b, c
     made.variance = own_variance(a.tag, camera, at) + own_variance(b.tag, camera, at) +
                     2 * square(camera.lens_error_rad * above_m) +
                     square((of_both.first - of_both.second) * std::sin(rig.tilt_error_rad)) +
-                    square(kDriving_m_s * (other.time_s - one.time_s)) +
+                    square(driving_m_s * (other.time_s - one.time_s)) +
                     square(noise_a[number].sigma_m) + square(noise_b[number].sigma_m);
     made.turn_variance = square(noise_a[number].sigma_rad) + square(noise_b[number].sigma_rad);
   }
@@ -341,12 +339,13 @@ RobotSamples fused_samples(std::span<const OneOfTags> tags, std::span<const Trac
 }
 
 void judge_agreement(std::span<const OneOfTags> tags, std::span<const TrackedCamera> cameras,
-                     const Rig& rig, TrackedRun& run) {
+                     const Rig& rig, double driving_m_s, TrackedRun& run) {
   const std::vector<Noise> noise = noise_of(tags, cameras.size());
   Agreement agreement(tags, run);
   for (std::size_t a = 0; a < tags.size(); ++a) {
     for (std::size_t b = a + 1; b < tags.size(); ++b) {
-      agreement.look(a, b, differences_of(tags[a], tags[b], noise[a], noise[b], cameras, rig));
+      agreement.look(
+          a, b, differences_of(tags[a], tags[b], noise[a], noise[b], cameras, rig, driving_m_s));
     }
   }
   agreement.finish();

@@ -23,8 +23,9 @@ RobotSamples fused_samples(std::span<const OneOfTags> tags, std::span<const Trac
 /// Checks, for each stretch of pictures in which two tags are seen together, whether their relative
 /// position agrees with the robot's calibration (E_TAGS_DISAGREE). A tag that was never seen
 /// together with another one cannot be checked (W_TAG_PLACE). A tag that was never seen is reported
-/// (W_FILM_ODD).
+/// (W_FILM_ODD). `driving_m_s`: how fast a robot moves while a rolling shutter reads the rows
+/// between its tags.
 void judge_agreement(std::span<const OneOfTags> tags, std::span<const TrackedCamera> cameras,
-                     const Rig& rig, TrackedRun& run);
+                     const Rig& rig, double driving_m_s, TrackedRun& run);
 
 }  // namespace swarmsmith

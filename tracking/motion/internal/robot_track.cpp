@@ -77,6 +77,16 @@ std::vector<TimedPose> by_hand(const TaggedRobot& robot, const std::vector<Timed
   return made;
 }
 
+/// Whether the track has samples so close before and after a time that what lies between them
+/// counts as measured.
+bool is_seen_at(const std::vector<TimedPose>& track, double time_s, const TrackLimits& limits) {
+  const auto next = std::ranges::lower_bound(track, time_s, {}, &TimedPose::time_s);
+  if (next == track.end()) return false;
+  if (next->time_s == time_s) return true;
+  if (next == track.begin()) return false;
+  return next->time_s - std::prev(next)->time_s <= limits.measured_gap_s + kSameInstant_s;
+}
+
 struct Estimate {
   Pose pose;
   Scatter sigma;
@@ -142,9 +152,12 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
   }
   SWARMSMITH_ASSERT(!made.merged.empty(), "a robot that was never seen is an error before");
   std::ranges::stable_sort(made.merged, {}, &TimedPose::time_s);
-  const std::vector<TimedPose> points = by_hand(robot, made.merged, cameras, options.points);
-  for (const TimedPose& point : points)
-    made.by_hand_s.push_back(point.time_s);
+  std::vector<TimedPose> points = by_hand(robot, made.merged, cameras, options.points);
+  std::erase_if(points, [&](const TimedPose& point) {
+    const bool is_seen = is_seen_at(made.merged, point.time_s, options.limits);
+    (is_seen ? made.unneeded_s : made.by_hand_s).push_back(point.time_s);
+    return is_seen;
+  });
   made.merged.insert(made.merged.end(), points.begin(), points.end());
   std::ranges::stable_sort(made.merged, {}, &TimedPose::time_s);
   const Motion together(made.merged, options.limits);

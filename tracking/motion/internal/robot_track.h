@@ -11,11 +11,12 @@ namespace swarmsmith {
 
 /// The poses of a robot at the start and at the end of each cycle.
 struct RobotTrack {
-  std::vector<Pose> poses;        ///< index 0 is the start, then one per cycle
-  std::vector<CycleKind> kinds;   ///< in the same order
-  std::vector<Scatter> sigmas;    ///< in the same order; with systematic errors
-  std::vector<TimedPose> merged;  ///< the used samples of all cameras, by time
-  std::vector<double> by_hand_s;  ///< times at which a person marked it; also in `merged`
+  std::vector<Pose> poses;         ///< index 0 is the start, then one per cycle
+  std::vector<CycleKind> kinds;    ///< in the same order
+  std::vector<Scatter> sigmas;     ///< in the same order; with systematic errors
+  std::vector<TimedPose> merged;   ///< the used samples of all cameras, by time
+  std::vector<double> by_hand_s;   ///< times at which a person marked it; also in `merged`
+  std::vector<double> unneeded_s;  ///< the same where a camera saw its tag: not used
   /// Consecutive samples of one camera such that the second cannot be reached from the first.
   std::vector<std::pair<TimedPose, TimedPose>> breaks;
   Scatter sigma;  ///< of one camera's sample, with systematic errors

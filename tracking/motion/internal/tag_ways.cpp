@@ -43,7 +43,8 @@ void measure_way(TagWay& tag, const std::vector<double>& times) {
     if (now == nullptr) continue;
     if (before != nullptr) {
       const double step = corners_moved(before->corners, now->corners);
-      const double most = kCornerSpeed_m_s * tag.pixels_per_m * (times[frame] - times[moved_at]);
+      const double most =
+          tag.corner_speed_m_s * tag.pixels_per_m * (times[frame] - times[moved_at]);
       tag.way[frame] += std::min(step, most + kStandingTag_px);
       if (step > kStandingTag_px) moved_at = frame;
     } else {
@@ -84,7 +85,7 @@ double corners_moved(const TagCorners& from, const TagCorners& to) {
 }
 
 std::vector<TagWay> tag_ways(const Observations& observations, int camera,
-                             std::span<const RobotSetup> all_robots) {
+                             std::span<const RobotSetup> all_robots, double corner_speed_m_s) {
   const std::vector<RobotSetup> robots = with_one_tag(observations, camera, all_robots);
   const std::size_t frames =
       observations.cameras.at(static_cast<std::size_t>(camera)).frame_times.size();
@@ -93,6 +94,7 @@ std::vector<TagWay> tag_ways(const Observations& observations, int camera,
   for (TagWay& tag : ways) {
     tag.seen.assign(frames, nullptr);
     tag.way.assign(frames, 0);
+    tag.corner_speed_m_s = corner_speed_m_s;
   }
   for (const Sighting& seen : observations.sightings) {
     // A damaged store may name a frame that does not exist.
