@@ -61,7 +61,7 @@ std::vector<EventRow> Budgets::take_news(TimePoint now, bool now_or_never) {
   tell_again_ = now + options_.tell_every;
   for (const auto& [kind, count] : left_out_) {
     std::uint64_t& told = told_[kind];
-    SWARMSMITH_ASSERT(told <= count, "what is left out is told once");
+    SWARMSMITH_ASSERT(told <= count, "an event that was left out is reported once");
     if (count == told) continue;
     news.push_back(
         pool_event("warning", "over budget",

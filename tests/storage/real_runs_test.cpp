@@ -108,7 +108,8 @@ TEST_F(RealRunsTest, OtherLogsOfRobotsAreOtherInputs) {
   const auto again = value_of(opened()->add_real_run(rows));
   EXPECT_FALSE(again.is_new);
   rows.log_cycles[3].left_mps = 0.1;
-  EXPECT_THAT(complaint_of(opened()->add_real_run(rows)), HasSubstr("with other inputs (the robots' logs);"));
+  EXPECT_THAT(complaint_of(opened()->add_real_run(rows)),
+              HasSubstr("with other inputs (the robots' logs);"));
 }
 
 TEST_F(RealRunsTest, CommandsOfRobotsStandBesideWhatTheCameraSaw) {

@@ -11,8 +11,8 @@ namespace swarmsmith {
 
 using RayDirections = RingDirections;
 
-/// A ring of sensors in the form that the engine uses: unit vectors in the robot's frame, of which
-/// the first `count` are valid.
+/// A ring of sensors in the form that the engine uses: unit vectors in the robot's frame. Only the
+/// first `count` vectors are valid.
 struct Ring {
   RayDirections directions{};
   std::size_t count = 0;
