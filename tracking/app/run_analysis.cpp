@@ -102,7 +102,7 @@ OrRefusal<AnalysedRun> analyse(Observations observations, const Rig& whole_rig, 
   options.body = log.mission.robot.body.outline;
   options.scored_at_the_end = is_scored_at_the_end(log.mission);
   options.takes_tags_for_centres = takes_tags_for_centres;
-  options.limits = limits_of(log.mission.robot.drive, logged_speed(observations.logs));
+  options.limits = limits_of(log.mission.robot, logged_speed(observations.logs));
   auto tracked = track_run(observations, run.rig, log.mission.arena, options);
   if (!tracked) return refused(tracked.error());
   run.tracked = std::move(*tracked);

@@ -357,8 +357,11 @@ void allow_speed(TrackLimits& limits, double speed_m_s, double turn_rad_s) {
   limits.corner_speed_m_s = usual.corner_speed_m_s * faster;
 }
 
-TrackLimits limits_of(const RobotDrive& drive, double logged_m_s) {
-  double most = drive.max_speed_mps == kMaxWheelSpeed_mps ? 0 : drive.max_speed_mps;
+TrackLimits limits_of(const Robot& robot, double logged_m_s) {
+  const RobotDrive& drive = robot.drive;
+  const bool is_rvr = drive.max_speed_mps == kMaxWheelSpeed_mps &&
+                      robot.body.outline == Outline(BoxOutline{kBodySide_m, kBodySide_m});
+  double most = is_rvr ? 0 : drive.max_speed_mps;
   // A node that works as in the simulator has the motors' limit in its log.
   if (logged_m_s != kMaxWheelSpeed_mps) most = std::max(most, logged_m_s);
   TrackLimits limits;

@@ -57,10 +57,10 @@ struct TrackLimits {
 /// same proportion; none becomes smaller than its default.
 void allow_speed(TrackLimits& limits, double speed_m_s, double turn_rad_s);
 
-/// The limits for robots with this drive, and with this limit of speed in their logs (0: no logs).
-/// The motors of an RVR could drive it faster than `swarmsmith-robot` lets them, so its own
-/// `max_speed` changes nothing; that of another robot does.
-TrackLimits limits_of(const RobotDrive& drive, double logged_m_s);
+/// The limits for such robots, and with this limit of speed in their logs (0: no logs). The motors
+/// of an RVR could drive it faster than `swarmsmith-robot` lets them, so its own `max_speed`
+/// changes nothing. That of a robot with another body or another `max_speed` does.
+TrackLimits limits_of(const Robot& robot, double logged_m_s);
 
 struct TrackOptions {
   RunSpan span;

@@ -269,14 +269,16 @@ TEST(FilmSpeedTest, FasterRobotsMayDriveFaster) {
 
 TEST(FilmSpeedTest, LimitsAreThoseOfTheMissionsRobotAndOfTheLogs) {
   const TrackLimits usual;
-  const RobotDrive rvr;
-  RobotDrive slow;
-  slow.max_speed_mps = 0.12;
-  RobotDrive fast;
-  fast.max_speed_mps = 0.7;
-  for (const auto& [drive, logged] : {std::pair(rvr, 0.0), std::pair(slow, 0.0),
+  const Robot rvr{};
+  Robot slow;
+  slow.drive.max_speed_mps = 0.12;
+  Robot fast;
+  fast.drive.max_speed_mps = 0.7;
+  Robot large;
+  large.body.outline = BoxOutline{0.29, 0.29};
+  for (const auto& [robot, logged] : {std::pair(rvr, 0.0), std::pair(slow, 0.0),
                                       std::pair(rvr, 0.35), std::pair(rvr, kMaxWheelSpeed_mps)}) {
-    const TrackLimits limits = limits_of(drive, logged);
+    const TrackLimits limits = limits_of(robot, logged);
     EXPECT_EQ(limits.driving_speed_m_s, logged > 0 ? logged : usual.driving_speed_m_s);
     EXPECT_EQ(limits.top_speed_m_s, usual.top_speed_m_s);
     EXPECT_EQ(limits.top_turn_rad_s, usual.top_turn_rad_s);
@@ -286,6 +288,7 @@ TEST(FilmSpeedTest, LimitsAreThoseOfTheMissionsRobotAndOfTheLogs) {
   }
   EXPECT_DOUBLE_EQ(limits_of(fast, 0).driving_speed_m_s, 0.7);
   EXPECT_DOUBLE_EQ(limits_of(fast, 0).top_speed_m_s, 2);
+  EXPECT_DOUBLE_EQ(limits_of(large, 0).driving_speed_m_s, kMaxWheelSpeed_mps);
   EXPECT_DOUBLE_EQ(limits_of(rvr, 0.7).top_speed_m_s, 2);
   EXPECT_DOUBLE_EQ(limits_of(rvr, 0.7).driving_speed_m_s, 0.7);
 }

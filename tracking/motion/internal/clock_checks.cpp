@@ -332,12 +332,14 @@ void check_speeds(const std::vector<TrackedRobot>& robots, const TrackLimits& li
   const double value = *check.value;
   findings.add(
       std::move(check),
-      issue_of(limits.knows_driving_speed ? IssueCode::FilmTooFast : IssueCode::FilmSpeed,
-               fmt::format("robots drive and turn at up to {:.2f} times the fastest that they can "
-                           "({:.2f} m/s, {:.1f} rad/s; limit {:.2f} times): the film plays too "
-                           "fast, or these are other robots. Give the camera's own times as a "
-                           "sidecar, or `length`, and the robots' logs",
-                           value, limits.driving_speed_m_s, limits.driving_turn_rad_s, kLimit)));
+      issue_of(
+          limits.knows_driving_speed ? IssueCode::FilmTooFast : IssueCode::FilmSpeed,
+          fmt::format("robots drive and turn at up to {:.2f} times the fastest that they can "
+                      "({:.2f} m/s, {:.1f} rad/s; limit {:.2f} times): the film plays too "
+                      "fast, or the robots are faster than the mission's. Give the camera's own "
+                      "times as a sidecar, or `length`, and the robots' logs; or give the "
+                      "mission's robot its own `max_speed`",
+                      value, limits.driving_speed_m_s, limits.driving_turn_rad_s, kLimit)));
 }
 
 }  // namespace swarmsmith
