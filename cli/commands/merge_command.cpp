@@ -2,7 +2,9 @@
 #include "base/text/json.h"
 #include "storage/merge.h"
 
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "cli/commands/commands.h"
 #include "cli/replay/design_worlds.h"
@@ -65,6 +67,10 @@ ExitCode run_merge(const MergeArguments& arguments, Output& output) {
   for (const std::string& warning : merged->warnings)
     print_note(output, "warning: " + warning);
   warn_of_mixed_names(arguments.out, output);
+  // Reading it has left empty files of SQLite beside the new store.
+  std::error_code ignored;
+  for (const char* ending : {"-wal", "-shm"})
+    std::filesystem::remove(arguments.out + ending, ignored);
   write(output, *merged, arguments.out);
   return ExitCode::Done;
 }
