@@ -131,9 +131,9 @@ OrRefusal<void> check_source(const RunLog& log, const std::string& store) {
   bool is_profile = std::ranges::find(built_in, log.source) != built_in.end();
   std::error_code trouble;
   if (!is_profile && !store.empty() && std::filesystem::exists(store, trouble)) {
-    auto reader = read_store(store);
-    if (!reader) return tl::unexpected(std::move(reader.error()));
-    is_profile = (*reader)->kept_profiles().contains(log.source);
+    // A store that cannot be read, or in which nothing has begun, is refused when it is written.
+    if (const auto reader = StoreReader::open(store))
+      is_profile = (*reader)->kept_profiles().contains(log.source);
   }
   if (!is_profile) return {};
   return refused(error_of(IssueCode::Config,

@@ -130,7 +130,7 @@ TEST(ModuleChart, OfAStudyIsAGridAMissionOnOnePage) {
       EXPECT_EQ(times(svg, method), 3) << width;
     EXPECT_EQ(times(svg, "2.5"), 7) << width;  // black floor for aggregation, of each method
     EXPECT_EQ(times(svg, "-"), 1);
-    EXPECT_THAT(words_of(svg), HasSubstr("-: the method has no such module"));
+    EXPECT_THAT(words_of(svg), HasSubstr("-: the flavour has no such module"));
   }
 }
 

@@ -162,7 +162,7 @@ TEST_F(ArgosExperimentOfEPucks, RefusesWhatTheOriginalHasNot) {
               HasSubstr("has no loop functions for the mission "));
   ArgosExperiment changed = experiment("rt-aac.toml");
   changed.mission.arena.patches[0].color = {1, 2, 3};
-  EXPECT_THAT(refusal(changed), HasSubstr("rt-aac is none that the original has loop functions"));
+  EXPECT_THAT(refusal(changed), HasSubstr("has no loop functions for the mission rt-aac: "));
   changed = experiment("rt-aac.toml");
   changed.mission.robot.drive.track_m = 0.06;
   EXPECT_THAT(refusal(changed), HasSubstr("has no loop functions for the mission "));

@@ -54,6 +54,23 @@ TEST(CampaignFile, ReadsWhoStartsWorkers) {
   EXPECT_EQ(campaign_digest(campaign), campaign_digest(parsed(plain.text())));
 }
 
+TEST(CampaignFile, AnOutlineThatDoesNotFitTheMissionsRobotIsRefused) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "round.toml")
+      << "format = 1\nrobots = 2\nrobot = \"epuck\"\n[score]\nkind = \"coverage\"\n";
+  const auto with_diameter = [&](const std::string& diameter) {
+    return complaint_of(parse_campaign(
+        "format = 1\n[[mission]]\npreset = \"round.toml\"\nrobot = { shape = \"circle\", diameter "
+        "= " +
+            diameter +
+            " }\n[[method]]\nname = \"m\"\nflavour = \"chocolate-epuck\"\n[simulator]\n"
+            "profile = \"epuck\"\n[race]\nmax_experiments = 2000\n",
+        folder / "x.toml"));
+  };
+  EXPECT_EQ(with_diameter("0.06"), "");
+  EXPECT_THAT(with_diameter("0.1"), HasSubstr("rays would start inside of the body"));
+}
+
 TEST(CampaignFile, ReadsFurtherProfilesOfTheTests) {
   const FileText plain;
   FileText file;

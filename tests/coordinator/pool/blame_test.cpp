@@ -58,8 +58,9 @@ TEST_F(Blame, TheRefereeBreaksTheCircleWhereEveryNewcomerDies) {
 TEST_F(Blame, WhatMayHaveKilledAWorkerRunsOnProvenWorkersAlone) {
   hello(1);
   hello(2);
+  credit(2, 0);
   credit(1, 100);
-  want(1, 4);
+  want(1, 8);
   scheduler.on_unreachable(1, now + milliseconds(10));
   move();
   ASSERT_GE(given[1].size(), 2U);

@@ -196,22 +196,6 @@ TEST(RobotFile, AMissionWithARobotReadsBackToTheSameBits) {
   }
 }
 
-TEST(RobotFile, AnOutlineThatDoesNotFitTheMissionsRobotIsRefused) {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "round.toml")
-      << "format = 1\nrobots = 2\nrobot = \"epuck\"\n[score]\nkind = \"coverage\"\n";
-  const auto with_diameter = [&](const std::string& diameter) {
-    const auto mission = parse_mission(
-        "format = 1\npreset = \"round.toml\"\nrobot = { shape = "
-        "\"circle\", diameter = " +
-            diameter + " }\n",
-        folder / "x.toml");
-    return mission ? "" : mission.error().front().message;
-  };
-  EXPECT_EQ(with_diameter("0.06"), "");
-  EXPECT_THAT(with_diameter("0.1"), HasSubstr("rays would start inside of the body"));
-}
-
 TEST(RobotFile, AMissionOfTheRvrSaysItsOutlineAlone) {
   const MissionEntry entry{built_in_mission("aggregation").value()};
   EXPECT_THAT(mission_text(entry),
