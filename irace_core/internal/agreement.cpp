@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.h"
+
 namespace swarmsmith::irace {
 
 std::optional<double> kendall_w(const RankTable& table, std::span<const std::size_t> columns) {

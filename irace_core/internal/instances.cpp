@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "base/assert.h"
+
 namespace swarmsmith::irace {
 
 InstanceLog::InstanceLog(const Scenario& scenario, Rng rng)

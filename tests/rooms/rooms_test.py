@@ -163,6 +163,9 @@ def not_included(text_of):
         for name in sorted(set(re.findall(r"\bstd::(\w+)", code))):
             if name in HEADER_OF and HEADER_OF[name] not in there:
                 lines.append(f"{file} uses std::{name} without <{HEADER_OF[name]}>")
+        # Files of one unit would bring it for each other.
+        if "SWARMSMITH_ASSERT(" in text and '"base/assert.h"' not in text and "define SWARMSMITH_ASSERT" not in text:
+            lines.append(f"{file} uses SWARMSMITH_ASSERT without base/assert.h")
     return lines
 
 
