@@ -2,8 +2,8 @@
 
 namespace swarmsmith {
 
-/// Environment variable with the secret by which a coordinator recognises the workers that it has
-/// started itself.
+/// Environment variable with a secret. The coordinator recognises the workers that it started
+/// itself because they know the secret.
 inline constexpr const char* kLocalSecret = "SWARMSMITH_LOCAL_SECRET";
 
 }  // namespace swarmsmith

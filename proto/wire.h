@@ -56,7 +56,7 @@ Expected<const pb::ToCoordinator*> decode_to_coordinator(std::string_view frame,
 Expected<const pb::ToWorker*> decode_to_worker(std::string_view frame,
                                                google::protobuf::Arena& arena);
 
-/// The digest of a scenario's bytes, by which tasks and results refer to the scenario.
+/// The digest of a scenario's bytes. Tasks and results name their scenario with it.
 std::uint64_t digest_of_scenario(std::string_view bytes);
 
 }  // namespace swarmsmith

@@ -39,7 +39,7 @@ std::string groups_text(const Comparison& comparison) {
   return aligned(std::move(table));
 }
 
-/// Lists each note once, and gives the numbers by which rows refer to notes.
+/// Lists each note once and numbers the notes; rows refer to these numbers.
 class Footnotes {
  public:
   /// "1 3"; empty if there are no notes.

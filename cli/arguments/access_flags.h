@@ -39,7 +39,7 @@ struct Access {
 tl::expected<Access, std::vector<Error>> open_access(const AccessFlags& flags,
                                                      const std::string& bind);
 
-/// The file by which clients find the coordinator.
+/// The file that tells clients where the coordinator is.
 CoordinatorFile coordinator_file(const AccessFlags& flags, const Access& access,
                                  const std::string& endpoint);
 

@@ -150,8 +150,8 @@ class ScenarioRun {
     campaign_.race.parallel = stored->race.parallel;
   }
 
-  /// The number of experiments by which the new budget exceeds the stored one, if nothing else
-  /// differs. The command `extend` adds them.
+  /// How many experiments the new budget has more than the stored one, if nothing else differs. The
+  /// command `extend` adds them.
   std::int64_t experiments_more() const {
     std::optional<Campaign> stored = stored_campaign(place_.file());
     if (!stored) return 0;

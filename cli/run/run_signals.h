@@ -2,7 +2,7 @@
 
 namespace swarmsmith::cli {
 
-// Signals by which a person or a batch system controls a run. They concern the whole process.
+// A person or a batch system controls a run with these signals. They concern the whole process.
 
 /// From now on, SIGINT, SIGTERM and SIGXCPU are recorded; a second SIGINT or SIGTERM ends the
 /// process at once.

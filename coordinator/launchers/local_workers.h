@@ -18,8 +18,8 @@ struct LocalWorkersOptions {
   int slots = 0;  ///< for each process; 0: the usable processors, shared among the processes
   std::filesystem::path program;       ///< empty: the result of `find_worker_program`
   std::vector<std::string> arguments;  ///< additional arguments for the program
-  std::string secret{};                ///< a secret by which the coordinator recognises these
-                                       ///< workers; empty: none
+  std::string secret{};                ///< these workers show it to the coordinator, which then
+                                       ///< recognises them; empty: none
 };
 
 /// Worker processes of this host. They die with this process, however it ends. A worker that ends

@@ -171,7 +171,7 @@ class Reading {
   IraceLog log_;
   std::optional<Scenario> capping_;                     ///< of a race with capping
   std::map<std::int64_t, std::size_t> configurations_;  ///< index in the log, by id
-  /// Numbers of the race's pairs by instance and seed, by which evaluators identify them.
+  /// Numbers of the race's pairs by instance and seed: evaluators know a pair by these two.
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> pairs_;
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> test_pairs_;
   std::map<std::int64_t, std::pair<std::int64_t, std::int64_t>> tasks_;  ///< of the evaluator

@@ -67,7 +67,8 @@ std::vector<std::size_t> dominated(std::span<const double> means,
   // Source: irace facts, 17; the tolerance is irace's.
   constexpr double kTolerance = 1e-5;
   const auto few = static_cast<std::size_t>(min_survival);
-  SWARMSMITH_ASSERT(few >= 1, "somebody is the standard of the others");
+  SWARMSMITH_ASSERT(few >= 1,
+                    "at least one configuration survives, and the others are compared with it");
   if (means.size() <= few) return {};
   std::vector<double> standard;
   for (const std::size_t i : elites)

@@ -20,7 +20,7 @@ struct RayDirection {
 /// Directions of the rays, by index.
 const std::array<RayDirection, kLidarRays>& lidar_directions();
 
-/// The rules by which neighbours are found in a scan (thesis 5.1; thesis facts, section 4).
+/// The rules for finding neighbours in a scan (thesis 5.1; thesis facts, section 4).
 struct LidarClustering {
   /// Readings outside these bounds are dropped; the upper bound keeps walls of the room from being
   /// taken for robots.

@@ -13,7 +13,8 @@ namespace {
 constexpr double kUnderBox = 60;       // for a curve that passes under a box,
 constexpr double kUnderBoxLength = 8;  // and in addition per mm under the box
 constexpr double kCrossing = 7;
-constexpr double kCrowded = 12;  // per mm by which two ends of curves are nearer than kEndDistance
+constexpr double kCrowded =
+    12;  // penalty for each mm that two curve ends are too close (kEndDistance)
 constexpr double kEndDistance = 2.4;
 constexpr double kAlongside = 8;  // per tenth of a curve that runs beside another one
 

@@ -83,8 +83,8 @@ class Places {
   static constexpr std::size_t kFew = 16;
   /// The radius that lists cover: about the reach of sensors and contacts.
   static constexpr double kListed_m = 0.9;
-  /// The extra radius of the lists, and so the distance by which two movers may approach each other
-  /// before lists and grid are rebuilt.
+  /// The extra radius of the lists. Lists and grid are rebuilt before two movers have approached
+  /// each other by more than this.
   static constexpr double kSkin_m = 0.3;
   static constexpr double kCell_m = 0.75;
 
