@@ -465,6 +465,11 @@ Expected<Decision> RobotNode::answer(const SensesMessage& senses, const Now& now
     fail(wrong);
     return bad_input(std::move(wrong));
   }
+  if (!std::ranges::all_of(senses.color, [](double value) { return std::isfinite(value); })) {
+    std::string wrong = fmt::format("the colour of cycle {} is not a number", senses.cycle);
+    fail(wrong);
+    return bad_input(std::move(wrong));
+  }
   sensed_.time_s = senses.time_s;
   sensed_.proximity_m = senses.ranges_m;
   sensed_.light_lux = senses.light_lux;

@@ -461,6 +461,11 @@ TEST(RobotNode, InLockStepTakesCyclesInOrderOnly) {
   EXPECT_TRUE(robot.node.answer(senses(8, 1), robot.now())) << "the next run";
   EXPECT_EQ(why_not(robot.node.answer(senses(8, 3), robot.now())).message,
             "cycle 3 of seed 8 came after cycle 1 of seed 8");
+  SensesMessage gray = senses(9, 1);
+  gray.color[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(why_not(robot.node.answer(gray, robot.now())).message,
+            "the colour of cycle 1 is not a number");
+  EXPECT_EQ(robot.state().phase, Phase::Failed);
   EXPECT_EQ(robot.state().phase, Phase::Failed);
   EXPECT_FALSE(robot.node.answer(senses(8, 2), robot.now()));
   EXPECT_TRUE(robot.node.answer(senses(9, 1), robot.now()));
