@@ -66,11 +66,13 @@ std::optional<uid_t> holder(uid_t user, std::uint64_t inode) {
 
 void set_end(const sockaddr_storage& end, __be32* address, __be16& port) {
   if (end.ss_family == AF_INET6) {
-    const auto& six = reinterpret_cast<const sockaddr_in6&>(end);
+    sockaddr_in6 six = {};
+    std::memcpy(&six, &end, sizeof six);
     std::memcpy(address, &six.sin6_addr, sizeof six.sin6_addr);
     port = six.sin6_port;
   } else {
-    const auto& four = reinterpret_cast<const sockaddr_in&>(end);
+    sockaddr_in four = {};
+    std::memcpy(&four, &end, sizeof four);
     std::memcpy(address, &four.sin_addr, sizeof four.sin_addr);
     port = four.sin_port;
   }

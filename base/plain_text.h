@@ -38,9 +38,9 @@ std::string counted(std::integral auto count, std::string_view what,
 /// A word of a command in a message, such as a file's name: in quotes for a shell where it needs
 /// them.
 inline std::string command_word(std::string_view word) {
-  constexpr std::string_view kPlain =
+  constexpr std::string_view kUnquoted =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:@%+=,";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos)
+  if (!word.empty() && word.find_first_not_of(kUnquoted) == std::string_view::npos)
     return std::string(word);
   std::string quoted = "'";
   for (const char letter : word)

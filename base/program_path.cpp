@@ -49,6 +49,7 @@ fs::path own_program() {
   const fs::path named = program_invocation_name;
   if (named.is_absolute()) return named;
   std::error_code failed;
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): getauxval returns addresses as numbers
   const auto* const called = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
   return called == nullptr ? fs::path() : fs::absolute(called, failed);
 }

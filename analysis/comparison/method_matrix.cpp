@@ -229,6 +229,7 @@ std::vector<MethodMatrix> method_matrices(const Comparison& comparison) {
   std::stable_partition(sources.begin(), sources.end(),
                         [&](const std::string& source) { return source == comparison.tested; });
   std::vector<MethodMatrix> matrices;
+  matrices.reserve(sources.size());
   for (const std::string& source : sources)
     matrices.push_back(matrix_of(comparison, source));
   return matrices;

@@ -105,6 +105,7 @@ std::string csv_of(const Race& race) {
   };
   const auto& [steps, rows] = race.matrix;
   std::vector<const RaceMatrix::Row*> by_number;
+  by_number.reserve(rows.size());
   for (const RaceMatrix::Row& row : rows)
     by_number.push_back(&row);
   std::ranges::sort(by_number, {}, &RaceMatrix::Row::candidate);

@@ -90,6 +90,7 @@ void part_processor_limits() {
 
 /// Sets the process's name: in an archive (packaging/bundle) the kernel uses the loader's name.
 void take_name() {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): getauxval returns addresses as numbers
   const auto* const called = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
   if (called == nullptr) return;
   const char* const slash = std::strrchr(called, '/');

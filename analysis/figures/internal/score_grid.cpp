@@ -77,7 +77,7 @@ class ScoreGrid {
     across_ = std::clamp<std::size_t>(static_cast<std::size_t>(room / (kLeastColumn + kGap)), 1,
                                       plot.panels.size());
     column_ = room / static_cast<double>(across_) - kGap;
-    const double rows = static_cast<double>(methods_.size() * bands());
+    const auto rows = static_cast<double>(methods_.size() * bands());
     row_ = std::clamp((kPage - 40) / rows - 1, kLeastRow, kRow);
   }
 

@@ -14,8 +14,8 @@ struct Stop {
   template <class Self, class Visitor>
   static void parameters(Self& /*self*/, Visitor& /*visitor*/) {}
   static UsedSenses uses(const Flavour& /*flavour*/) { return {}; }
-  Command act(Senses& /*senses*/, const Flavour& /*flavour*/, BehaviourMemory& /*memory*/,
-              Rng& /*rng*/) const {
+  static Command act(Senses& /*senses*/, const Flavour& /*flavour*/, BehaviourMemory& /*memory*/,
+                     Rng& /*rng*/) {
     return {0, 0};
   }
   friend bool operator==(const Stop&, const Stop&) = default;
