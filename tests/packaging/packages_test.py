@@ -244,7 +244,7 @@ class BareDebian(unittest.TestCase):
         for path in mine:
             self.assertEqual((there / path).read_bytes(), (SOURCE / "examples" / path).read_bytes(), path)
             self.assertEqual(os.access(there / path, os.X_OK), os.access(SOURCE / "examples" / path, os.X_OK), path)
-        self.root.shell(f"cd /{EXAMPLES}; for file in *.toml */*.toml; do [[ $file == missions/* ]] || swarmsmith check $file; done")
+        self.root.shell(f"cd /{EXAMPLES}; grep -l '^[[]race]' *.toml */*.toml | xargs -n 1 swarmsmith check")
 
     def units(self):
         """What docs/cluster.md says, line by line, and then what systemd, which does not run in a folder, would do."""
