@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "storage/internal/schema.h"
 
@@ -92,6 +94,21 @@ inline constexpr TableColumns kEvaluationColumns{
                                                {.name = "attempt", .is_checked = true},
                                                {.name = "time", .since = 2, .is_checked = true},
                                                {.name = "bound", .since = 2, .is_checked = true}})};
+
+/// The cells of these columns. `source` is the number of the row's source.
+inline auto cells_of(const EvaluationRow& row, std::int64_t source) {
+  const auto& [score, state_digest, wall_us, time] = row.measured;
+  const auto unless_zero = [](double value) {
+    return value == 0 ? std::nullopt : std::optional(value);
+  };
+  const std::tuple cells(row.key.candidate.value, static_cast<std::int64_t>(row.key.purpose),
+                         row.key.pair, static_cast<std::int64_t>(row.status),
+                         row.status == EvaluationStatus::Ok ? &score : nullptr, state_digest,
+                         source, wall_us, row.worker, row.attempt, unless_zero(time),
+                         unless_zero(row.bound));
+  static_assert(std::tuple_size_v<decltype(cells)> == kEvaluationColumns.size());
+  return cells;
+}
 
 inline constexpr TableColumns kIterationColumns{
     "iteration", std::to_array<StoredColumn>({{"design"},

@@ -160,26 +160,24 @@ void RowWriter::put(const PairRow& row) {
 }
 
 void RowWriter::put(const EvaluationRow& row) {
+  constexpr auto& kAll = kEvaluationColumns;
+  const auto all = cells_of(row, source_id(row.source));
   const std::int64_t candidate = row.key.candidate.value;
   const std::int64_t purpose = number(row.key.purpose);
-  const auto& [measured_score, state_digest, wall_us, time] = row.measured;
-  const double* score = row.status == EvaluationStatus::Ok ? &measured_score : nullptr;
   const auto iteration = unless_zero(row.iteration);
   const bool is_new = std::apply(
       [&](const auto&... cells) {
-        static_assert(sizeof...(cells) == kEvaluationColumns.size());
         evaluation_.run(cells..., iteration, row_check(cells...));
         if (connection_.changes() == 0) return false;
         if (sums_) sums_->add(Table::Evaluation, RowHash::of(cells...));
         return true;
       },
-      std::tuple(candidate, purpose, row.key.pair, number(row.status), score, state_digest,
-                 source_id(row.source), wall_us, row.worker, row.attempt, unless_zero(time),
-                 unless_zero(row.bound)));
+      all);
   bool is_used = is_new;
   if (!is_new && iteration) {
-    used_.run(candidate, purpose, row.key.pair, iteration, number(row.status), score, state_digest,
-              unless_zero(time));
+    used_.run(candidate, purpose, row.key.pair, iteration, number(row.status),
+              std::get<kAll.at("score")>(all), row.measured.state_digest,
+              std::get<kAll.at("time")>(all));
     is_used = connection_.changes() > 0;
   }
   if (sums_ && iteration && is_used)
@@ -308,9 +306,12 @@ void require_finite(const Row& row) {
   std::visit(Overloaded{
                  nothing,
                  [&](const EvaluationRow& r) {
-                   require(r.status != EvaluationStatus::Ok || std::isfinite(r.measured.score),
-                           row);
-                   require(std::isfinite(r.measured.time) && std::isfinite(r.bound), row);
+                   const auto check = [&](double score, auto... others) {
+                     require(r.status != EvaluationStatus::Ok || std::isfinite(score), row);
+                     require((std::isfinite(static_cast<double>(others)) && ...), row);
+                   };
+                   std::apply(check, measured_fields(r.measured));
+                   require(std::isfinite(r.bound), row);
                  },
                  [&](const RaceStepRow& r) {
                    require(std::isfinite(r.mean_best), row);
