@@ -63,10 +63,6 @@ std::optional<std::int64_t> unless_zero(std::int64_t value) {
   return value == 0 ? std::nullopt : std::optional(value);
 }
 
-std::optional<double> unless_zero(double value) {
-  return value == 0 ? std::nullopt : std::optional(value);
-}
-
 template <class Enum>
 std::int64_t number(Enum value) {
   return static_cast<std::int64_t>(value);
