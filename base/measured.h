@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <string_view>
 #include <tuple>
+#include <utility>
 
 namespace swarmsmith {
 
@@ -20,18 +20,14 @@ struct Measured {
   double time = 0;           ///< as reported by a target, in its unit; 0 if it reports none
 };
 
-/// The names of the columns of its fields, in their order.
-inline constexpr auto kMeasuredNames =
-    std::to_array<std::string_view>({"score", "state_digest", "wall_us", "time"});
-
-/// References to its fields, in their order.
+/// References to all fields, in their order.
 template <class AnyMeasured>
 constexpr auto measured_fields(AnyMeasured& measured) {
   auto& [score, state_digest, wall_us, time] = measured;
-  const auto fields = std::tie(score, state_digest, wall_us, time);
-  static_assert(std::tuple_size_v<decltype(fields)> == kMeasuredNames.size());
-  return fields;
+  return std::tie(score, state_digest, wall_us, time);
 }
+inline constexpr std::size_t kMeasuredFields =
+    std::tuple_size_v<decltype(measured_fields(std::declval<Measured&>()))>;
 
 /// Whether two runs of one evaluation gave the same result, bit by bit. Times may differ, and -0 is
 /// 0, as in stores.

@@ -2,8 +2,6 @@
 
 #include <limits>
 #include <string>
-#include <tuple>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -142,23 +140,10 @@ PairRow pair(const Statement& row) {
           .seed = row.integer(kPairColumns.at("seed"))};
 }
 
-template <std::size_t... kFields>
-Measured measured_at(const Statement& row, std::index_sequence<kFields...> /*all*/) {
-  Measured measured;
-  const auto fields = measured_fields(measured);
-  (row.get(kEvaluationColumns.at(kMeasuredNames[kFields]), std::get<kFields>(fields)), ...);
-  return measured;
-}
-Measured measured_at(const Statement& row) {
-  return measured_at(row, std::make_index_sequence<kMeasuredNames.size()>());
-}
-
-constexpr std::size_t kNotMeasured = kEvaluationColumns.size() - kMeasuredNames.size();
-
 /// The statement has the table's columns, then the iteration, then the name of the source.
 EvaluationRow evaluation(const Statement& row) {
   constexpr auto& kAll = kEvaluationColumns;
-  static_assert(kNotMeasured == 8, "a new column is read here");
+  static_assert(kAll.size() - kMeasuredFields == 8, "a new column is read here");
   return {.key = key_at(row, kAll.at("candidate")),
           .iteration = row.integer(kAll.size()),
           .status = status_at(row, kAll.at("status")),
@@ -284,7 +269,8 @@ std::vector<DesignRow> read_designs(const sqlite::Connection& connection, const 
 
 std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const Part& part) {
   constexpr auto& kAll = kEvaluationColumns;
-  static_assert(kNotMeasured == 8, "a new column is read here, if a resumed campaign needs it");
+  static_assert(kAll.size() - kMeasuredFields == 8,
+                "a new column is read here, if a resume needs it");
   std::vector<StoredScore> scores;
   Statement row(connection, "SELECT " + kAll.names(schema_of(connection)) +
                                 ", iteration FROM evaluation WHERE " +

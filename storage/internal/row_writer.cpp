@@ -156,7 +156,6 @@ void RowWriter::put(const PairRow& row) {
 }
 
 void RowWriter::put(const EvaluationRow& row) {
-  constexpr auto& kAll = kEvaluationColumns;
   const auto all = cells_of(row, source_id(row.source));
   const std::int64_t candidate = row.key.candidate.value;
   const std::int64_t purpose = number(row.key.purpose);
@@ -172,8 +171,8 @@ void RowWriter::put(const EvaluationRow& row) {
   bool is_used = is_new;
   if (!is_new && iteration) {
     used_.run(candidate, purpose, row.key.pair, iteration, number(row.status),
-              std::get<kAll.at("score")>(all), row.measured.state_digest,
-              std::get<kAll.at("time")>(all));
+              std::get<kEvaluationColumns.at("score")>(all), row.measured.state_digest,
+              std::get<kEvaluationColumns.at("time")>(all));
     is_used = connection_.changes() > 0;
   }
   if (sums_ && iteration && is_used)
@@ -302,12 +301,9 @@ void require_finite(const Row& row) {
   std::visit(Overloaded{
                  nothing,
                  [&](const EvaluationRow& r) {
-                   const auto check = [&](double score, auto... others) {
-                     require(r.status != EvaluationStatus::Ok || std::isfinite(score), row);
-                     require((std::isfinite(static_cast<double>(others)) && ...), row);
-                   };
-                   std::apply(check, measured_fields(r.measured));
-                   require(std::isfinite(r.bound), row);
+                   require(r.status != EvaluationStatus::Ok || std::isfinite(r.measured.score),
+                           row);
+                   require(std::isfinite(r.measured.time) && std::isfinite(r.bound), row);
                  },
                  [&](const RaceStepRow& r) {
                    require(std::isfinite(r.mean_best), row);

@@ -104,9 +104,6 @@ class Statement {
   double real(int column) const { return sqlite3_column_double(handle_.get(), column); }
   std::optional<double> optional_real(int column) const;
   std::string text(int column) const;
-  void get(int column, std::int64_t& value) const { value = integer(column); }
-  void get(int column, std::uint64_t& value) const { value = bits(column); }
-  void get(int column, double& value) const { value = real(column); }
 
  private:
   void bind_one(int at, std::int64_t value) { check(sqlite3_bind_int64(handle_.get(), at, value)); }

@@ -107,12 +107,14 @@ TEST(MeasuredNumbers, AreInTheViewOfEvaluationsAndAreReadAgain) {
     ASSERT_TRUE(store->flush());
   }
   const auto reader = open_reader(folder / "s.db");
-  for (std::size_t i = 0; i < kMeasuredNames.size(); ++i) {
-    const std::string shown =
-        kMeasuredNames[i] == "wall_us" ? "1000 * wall_ms" : std::string(kMeasuredNames[i]);
-    EXPECT_THAT(cells_of(*reader, "SELECT CAST(" + shown + " AS INTEGER) FROM v_evaluations"),
+  constexpr auto kShown =
+      std::to_array<std::string_view>({"score", "state_digest", "1000 * wall_ms", "time"});
+  static_assert(kShown.size() == kMeasuredFields);
+  for (std::size_t i = 0; i < kShown.size(); ++i) {
+    EXPECT_THAT(cells_of(*reader, "SELECT CAST(" + std::string(kShown[i]) +
+                                      " AS INTEGER) FROM v_evaluations"),
                 ElementsAre(ElementsAre(std::to_string(i + 1))))
-        << kMeasuredNames[i];
+        << kShown[i];
   }
   const std::vector<StoredScore> scores = reader->scores();
   ASSERT_EQ(scores.size(), 1U);
