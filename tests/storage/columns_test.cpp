@@ -81,7 +81,8 @@ TEST_P(Columns, AreThoseThatTheLentViewsNeed) {
     try {
       sqlite::Statement(memory_, "SELECT * FROM temp." + name);
     } catch (const sqlite::SqliteError& error) {
-      EXPECT_THAT(error.what(), StartsWith("no such table")) << name << ": raise kTablesVersion";
+      EXPECT_THAT(std::string(error.what()), StartsWith("no such table"))
+          << name << ": raise kTablesVersion";
     }
   }
 }
