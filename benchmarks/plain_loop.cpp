@@ -74,12 +74,12 @@ std::size_t evaluate_all(const std::vector<Work>& work, const Campaign& campaign
     for (std::size_t i = next++; i < work.size(); i = next++) {
       const auto machine = parse_machine(*work[i].machine, flavour);
       const auto instance = instance_of(mission, work[i].seed);
-      const SimulationResult result = simulate({.controller = *machine,
-                                                .flavour = flavour,
-                                                .profile = campaign.profile,
-                                                .mission = mission,
-                                                .instance = *instance,
-                                                .seed = work[i].seed});
+      const Measured result = simulate({.controller = *machine,
+                                        .flavour = flavour,
+                                        .profile = campaign.profile,
+                                        .mission = mission,
+                                        .instance = *instance,
+                                        .seed = work[i].seed});
       if (result.score != work[i].score) ++different;
     }
   };

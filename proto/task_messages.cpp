@@ -1,5 +1,7 @@
 #include "proto/task_messages.h"
 
+#include <tuple>
+
 #include "proto/wire.h"
 #include "proto/wire.pb.h"
 
@@ -50,11 +52,8 @@ void write(const LeasedTask& task, pb::Task& message) {
 
 Result result_of(const pb::Result& message) {
   Measured measured;
-  auto& [score, state_digest, wall_us, time] = measured;
-  score = message.score() + 0.0;
-  state_digest = message.state_digest();
-  wall_us = message.wall_us();
-  time = message.time();
+  measured_fields(measured) =
+      std::tuple(message.score() + 0.0, message.state_digest(), message.wall_us(), message.time());
   return {.key = *pack(message.key()),
           .attempt = message.attempt(),
           .measured = measured,

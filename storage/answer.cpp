@@ -30,10 +30,11 @@ void visit_fields(const Row& row, Field&& field) {
           [&](const EvaluationRow& r) {
             field("candidate", r.key.candidate), field("purpose", r.key.purpose);
             field("pair", r.key.pair), field("iteration", r.iteration), field("status", r.status);
-            const auto& [score, state_digest, wall_us, time] = r.measured;
-            field("score", r.status == EvaluationStatus::Ok ? std::optional(score) : std::nullopt);
-            field("state_digest", state_digest), field("source", r.source);
-            if (time != 0 || r.bound != 0) field("time", time), field("bound", r.bound);
+            const Measured& m = r.measured;
+            field("score",
+                  r.status == EvaluationStatus::Ok ? std::optional(m.score) : std::nullopt);
+            field("state_digest", m.state_digest), field("source", r.source);
+            if (m.time != 0 || r.bound != 0) field("time", m.time), field("bound", r.bound);
           },
           [&](const UnusedRow& r) {
             field("candidate", r.key.candidate), field("purpose", r.key.purpose);

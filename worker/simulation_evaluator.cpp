@@ -46,13 +46,12 @@ class Simulation {
     if (!controller) return Unexpected(controller.error());
     const Expected<Instance> instance = instance_of(mission, item.seed);
     if (!instance) return Unexpected(instance.error());
-    const SimulationResult result = simulate({.controller = **controller,
-                                              .flavour = flavour,
-                                              .profile = profile_of(item),
-                                              .mission = mission,
-                                              .instance = *instance,
-                                              .seed = item.seed});
-    return Result{.measured = {.score = result.score, .state_digest = result.state_digest}};
+    return Result{.measured = simulate({.controller = **controller,
+                                        .flavour = flavour,
+                                        .profile = profile_of(item),
+                                        .mission = mission,
+                                        .instance = *instance,
+                                        .seed = item.seed})};
   }
 
   const Profile& profile_of(const LeasedTask& item) const {

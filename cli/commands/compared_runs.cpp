@@ -38,7 +38,7 @@ std::string values_text(double score, std::uint64_t digest) {
   return fmt::format("score {}, state digest {:016x}", json_number(score), digest);
 }
 
-std::string difference_text(const StoredRun& run, const SimulationResult& result) {
+std::string difference_text(const StoredRun& run, const Measured& result) {
   std::string text = name_of(run) + ": the replay gives " +
                      values_text(result.score, result.state_digest) + "; the store holds ";
   text += run.outcome ? values_text(run.outcome->score, run.outcome->state_digest) : "a rejection";

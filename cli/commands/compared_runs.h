@@ -16,7 +16,7 @@ std::string name_of(const StoredRun& run);
 /// "score 3, state digest 00ff..."
 std::string values_text(double score, std::uint64_t digest);
 /// Both values, which worker gave the stored value, and possible reasons for the difference.
-std::string difference_text(const StoredRun& run, const SimulationResult& result);
+std::string difference_text(const StoredRun& run, const Measured& result);
 
 /// An evaluation whose new result differs from the stored one, or that cannot be repeated.
 struct Difference {

@@ -174,16 +174,16 @@ class Evaluation {
   void run_one(const EvaluationJob& job, std::size_t i, Recorder recorder) {
     Counter cycles(output_, "simulated", "cycles of seed " + std::to_string(job.seeds[i]));
     const auto begin = std::chrono::steady_clock::now();
-    const SimulationResult result =
-        simulate({.controller = job.controller,
-                  .flavour = job.flavour,
-                  .profile = job.profile,
-                  .mission = job.mission,
-                  .instance = job.instances[i],
-                  .seed = job.seeds[i]},
-                 with_counter(std::move(recorder), job.mission, cycles));
-    const auto wall = std::chrono::duration_cast<std::chrono::microseconds>(
-        std::chrono::steady_clock::now() - begin);
+    Measured result = simulate({.controller = job.controller,
+                                .flavour = job.flavour,
+                                .profile = job.profile,
+                                .mission = job.mission,
+                                .instance = job.instances[i],
+                                .seed = job.seeds[i]},
+                               with_counter(std::move(recorder), job.mission, cycles));
+    result.wall_us = std::chrono::duration_cast<std::chrono::microseconds>(
+                         std::chrono::steady_clock::now() - begin)
+                         .count();
     if (!std::isfinite(result.score)) return reject(job, job.seeds[i], result.score);
     scores_.push_back(result.score);
     if (by_job_.empty() || by_job_.back().first != &job)
@@ -195,7 +195,7 @@ class Evaluation {
                              .source = job.profile.name,
                              .instance = {},
                              .seed = told.seed};
-      told.kept = keeper_->keep(place, result, wall.count());
+      told.kept = keeper_->keep(place, result);
     }
     if (of_ > 1) counter_.tell(static_cast<std::int64_t>(scores_.size()), of_);
     if (output_.json) {

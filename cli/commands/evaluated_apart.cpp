@@ -6,22 +6,21 @@
 #include <unistd.h>
 
 #include <array>
-#include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <exception>
 #include <optional>
+#include <type_traits>
 
 namespace swarmsmith::cli {
 namespace {
 
-/// The child's message about a run: how it ended, score, state digest.
-using Message = std::array<std::uint64_t, 3>;
+static_assert(std::is_trivially_copyable_v<Again>, "the child sends its bytes");
 
 Again evaluate_here(const StoredRun& run, const EvaluateRun& evaluate) {
   try {
-    const SimulationResult result = evaluate(run);
+    const Measured result = evaluate(run);
     if (std::isfinite(result.score)) return {.end = Again::End::Scored, .result = result};
   } catch (const std::exception&) {
     // The reason why the run has no score is not used.
@@ -38,31 +37,26 @@ Again evaluate_here(const StoredRun& run, const EvaluateRun& evaluate) {
   if (const int null = open("/dev/null", O_WRONLY | O_CLOEXEC); null >= 0) dup2(null, 2);
   for (const StoredRun& run : runs) {
     const Again again = evaluate_here(run, evaluate);
-    const Message message = {static_cast<std::uint64_t>(again.end),
-                             std::bit_cast<std::uint64_t>(again.result.score),
-                             again.result.state_digest};
-    // The message is shorter than PIPE_BUF, so it is written as a whole or not at all.
-    if (::write(to, message.data(), sizeof message) != sizeof message) _exit(1);
+    // It is shorter than PIPE_BUF, so it is written as a whole or not at all.
+    if (::write(to, &again, sizeof again) != sizeof again) _exit(1);
   }
   _exit(0);
 }
 
-/// The next message of the child; empty if the child has finished or died.
+/// The next result of the child; empty if the child has finished or died.
 std::optional<Again> hear(int from) {
-  Message message{};
+  Again again;
   std::size_t got = 0;
-  while (got < sizeof message) {
-    const ssize_t size =
-        ::read(from, reinterpret_cast<char*>(message.data()) + got, sizeof message - got);
+  while (got < sizeof again) {
+    const ssize_t size = ::read(from, reinterpret_cast<char*>(&again) + got, sizeof again - got);
     if (size < 0 && errno == EINTR) continue;
     if (size <= 0) return std::nullopt;
     got += static_cast<std::size_t>(size);
   }
-  return Again{.end = static_cast<Again::End>(message[0]),
-               .result = {.score = std::bit_cast<double>(message[1]), .state_digest = message[2]}};
+  return again;
 }
 
-/// Starts a child for `runs` and collects its messages until it has finished or died.
+/// Starts a child for `runs` and collects its results until it has finished or died.
 Expected<std::vector<Again>> evaluate_in_child(std::span<const StoredRun> runs,
                                                const EvaluateRun& evaluate) {
   std::array<int, 2> ends{};

@@ -17,10 +17,10 @@ struct Again {
     Killed,  ///< the evaluation killed its process
   };
   End end = End::Scored;
-  SimulationResult result;  ///< if there is a score
+  Measured result;  ///< if there is a score
 };
 
-using EvaluateRun = std::function<SimulationResult(const StoredRun&)>;
+using EvaluateRun = std::function<Measured(const StoredRun&)>;
 
 /// Evaluates the runs in a child process, so that a crash is an outcome like any other; the runs
 /// after it get a new process. The results are in the order of `runs`. Not for programs with

@@ -38,7 +38,7 @@ std::string hexadecimal(std::uint64_t digest) {
   return fmt::format("{:016x}", digest);
 }
 
-std::string as_json(const StoredRun& run, const SimulationResult& result) {
+std::string as_json(const StoredRun& run, const Measured& result) {
   JsonObject object;
   object.add("id", run.id.empty() ? std::nullopt : std::optional(run.id))
       .add("candidate", run.candidate)
@@ -63,7 +63,7 @@ std::string as_json(const StoredRun& run, const SimulationResult& result) {
 }
 
 /// The line with the result of the comparison.
-std::string as_line(const StoredRun& run, const SimulationResult& result) {
+std::string as_line(const StoredRun& run, const Measured& result) {
   const std::string values = values_text(result.score, result.state_digest);
   if (run.outcome) return name_of(run) + ": same bits as stored: " + values;
   return name_of(run) + ": " + values +
@@ -72,14 +72,14 @@ std::string as_line(const StoredRun& run, const SimulationResult& result) {
 }
 
 /// The text about the run in a picture, besides the mission and the times.
-std::vector<std::string> details_of(const StoredRun& run, const SimulationResult& result) {
+std::vector<std::string> details_of(const StoredRun& run, const Measured& result) {
   return {run.candidate, "seed " + std::to_string(run.seed), "score " + score_text(result.score)};
 }
 
 ExitCode replay_one(const StoredRun& run, const ReplayArguments& arguments, Output& output) {
   auto recording = Recording::start(arguments.recording, run.mission, run.controller, output);
   if (!recording) return fail(output, exit_code_of_recording(recording.error()), recording.error());
-  const SimulationResult result = simulate(run.setup(), recording->recorder());
+  const Measured result = simulate(run.setup(), recording->recorder());
   const auto written = recording->finish(details_of(run, result), run.instance);
   if (!written) return fail(output, ExitCode::Failed, written.error());
   const bool differs = run.outcome && !same_bits(*run.outcome, result);

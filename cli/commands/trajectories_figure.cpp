@@ -73,7 +73,7 @@ Expected<void> film(const StoredRun& run, ArenaPanels& panels, std::string& csv)
     for (std::size_t i = 0; i < snapshot.objects.size(); ++i)
       picture.objects[i].push_back(snapshot.objects[i]);
   };
-  const SimulationResult result = simulate(run.setup(), Recorder(observe));
+  const Measured result = simulate(run.setup(), Recorder(observe));
   if (run.outcome && !same_bits(*run.outcome, result)) {
     return unexpected(ErrorKind::Conflict,
                       "this run does not come out as it is stored; `swarmsmith replay " +

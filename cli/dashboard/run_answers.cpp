@@ -307,7 +307,7 @@ Answer simulated_answer(const Question& question, const StoredRun& run) {
     }
     cycles == 0 ? score.start() : score.observe(places_of_robots, places_of_objects);
   };
-  const SimulationResult result = simulate(run.setup(), Recorder(observe));
+  const Measured result = simulate(run.setup(), Recorder(observe));
   std::vector<std::string> behaviours;
   for (int state = 0; state <= most_state; ++state)
     behaviours.emplace_back(acting_in(run.controller, state));

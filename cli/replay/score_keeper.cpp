@@ -24,26 +24,23 @@ Expected<ScoreKeeper> ScoreKeeper::open(const std::string& store) {
   return ScoreKeeper(std::move(*at_rest), std::move(*ledger));
 }
 
-ScoreKeeper::Kept ScoreKeeper::keep(const ScorePlace& place, const SimulationResult& result,
-                                    std::int64_t wall_us) {
-  // The store keeps -0 as 0.
-  const Measured measured{
-      .score = result.score + 0.0, .state_digest = result.state_digest, .wall_us = wall_us};
+ScoreKeeper::Kept ScoreKeeper::keep(const ScorePlace& place, Measured result) {
+  result.score += 0.0;  // the store keeps -0 as 0
   const LedgerScore* known = ledger_.find(place);
   if (known == nullptr) {
-    const EvaluationKey key = ledger_.add(place, measured, rows_);
-    rows_.emplace_back(EvaluationRow{.key = key, .measured = measured, .source = place.source});
-    return {Kept::How::New, key, measured.score};
+    const EvaluationKey key = ledger_.add(place, result, rows_);
+    rows_.emplace_back(EvaluationRow{.key = key, .measured = result, .source = place.source});
+    return {Kept::How::New, key, result.score};
   }
   // An imported score has no state digest to compare.
   const bool same_score = std::bit_cast<std::uint64_t>(known->measured.score + 0.0) ==
-                          std::bit_cast<std::uint64_t>(measured.score);
+                          std::bit_cast<std::uint64_t>(result.score);
   const bool same_state =
       known->measured.state_digest == 0 || known->measured.state_digest == result.state_digest;
   if (same_score && same_state) return {Kept::How::Known, known->key, known->measured.score};
   rows_.emplace_back(ConflictRow{.key = known->key,
                                  .kept_score = known->measured.score,
-                                 .other_score = measured.score,
+                                 .other_score = result.score,
                                  .other_state_digest = result.state_digest,
                                  .other_worker = 0});
   return {Kept::How::Conflict, known->key, known->measured.score};

@@ -33,7 +33,7 @@ class ScoreKeeper {
 
   /// Collects a score. If the store already has a score for the same evaluation, the bits must be
   /// equal; a different score is stored as a conflict beside it.
-  Kept keep(const ScorePlace& place, const SimulationResult& result, std::int64_t wall_us);
+  Kept keep(const ScorePlace& place, Measured result);
 
   /// Writes the scores collected since the last commit, all or nothing.
   Expected<void> commit();

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstdlib>
 #include <functional>
 #include <limits>
@@ -51,7 +50,7 @@ StoredRun read_outcome(const std::vector<Cell>& cells) {
   run.seed = cells[2].integer();
   run.rejected = cells[3].text == "rejected";
   if (cells[4].type != Cell::Type::Null) {
-    run.outcome = SimulationResult{cells[4].real(), static_cast<std::uint64_t>(cells[5].integer())};
+    run.outcome = Measured{cells[4].real(), static_cast<std::uint64_t>(cells[5].integer())};
   }
   run.worker = cells[9].integer();
   run.host = cells[10].text;
@@ -170,12 +169,6 @@ class Draw {
 };
 
 }  // namespace
-
-bool same_bits(const SimulationResult& stored, const SimulationResult& result) {
-  return std::bit_cast<std::uint64_t>(stored.score) ==
-             std::bit_cast<std::uint64_t>(result.score + 0.0) &&
-         stored.state_digest == result.state_digest;
-}
 
 std::string other_engine(int stored_version, int version) {
   // A campaign with several missions has the highest of their versions.

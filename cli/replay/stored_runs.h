@@ -22,7 +22,7 @@ struct StoredRun {
   std::string candidate;  ///< c812
   std::int64_t seed = 0;
   bool rejected = false;
-  std::optional<SimulationResult> outcome;  ///< empty: rejected, or not in the store
+  std::optional<Measured> outcome;  ///< empty: rejected, or not in the store
   Controller controller;
   Flavour flavour;
   Profile profile;
@@ -37,9 +37,6 @@ struct StoredRun {
   /// "; given by worker 3 on lab7 (lab@10.0.0.7)", empty if the worker is not known.
   std::string given_by() const;
 };
-
-/// Whether the simulation result equals the stored one bit for bit. The store keeps -0 as 0.
-bool same_bits(const SimulationResult& stored, const SimulationResult& result);
 
 /// The evaluations of a store, so that they can be simulated again.
 class StoredRuns {

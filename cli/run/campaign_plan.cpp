@@ -18,8 +18,8 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Measured on stores of 12k and 100k evaluations: the size of an evaluation with its candidate and
-/// step, and what it adds to the log until the log is folded into the store.
+/// Measured on stores of 12k and 100k evaluations: the size of an evaluation with its candidate
+/// and step, and what it adds to the log until the log is folded into the store.
 constexpr double kBytesPerEvaluation = 120;
 constexpr double kLogBytesPerEvaluation = 1300;
 constexpr double kLargestLog = 10e6;
@@ -54,7 +54,7 @@ std::vector<Controller> some_controllers(const Campaign& campaign, const Method&
 }
 
 /// Measurements of random machines.
-struct Measured {
+struct RandomRuns {
   double evaluation_s = 0;  ///< mean
   std::int64_t runs = 0;    ///< that covered the whole mission
   double least = 0;         ///< lowest score
@@ -64,7 +64,7 @@ struct Measured {
 
 /// Warns about a score that is never a number or always the same, because that is probably a
 /// mistake.
-void warn_about_scores(const std::string& mission, const Measured& measured,
+void warn_about_scores(const std::string& mission, const RandomRuns& measured,
                        std::vector<std::string>& warnings) {
   constexpr std::int64_t kEnough = 20;
   if (!measured.finite) {
@@ -80,8 +80,8 @@ void warn_about_scores(const std::string& mission, const Measured& measured,
 
 /// Simulates evaluations of the method on the mission, as many as fit into `budget_s`. If the
 /// mission is too long for that, simulates its beginning, as much as fits.
-Measured measure(const Campaign& campaign, const Method& method, const Mission& mission,
-                 double budget_s) {
+RandomRuns measure(const Campaign& campaign, const Method& method, const Mission& mission,
+                   double budget_s) {
   const Flavour flavour =
       find_flavour(method.flavour, method.turn_clock, method.own_flavour).value();
   const std::vector<Controller> controllers = some_controllers(campaign, method);
@@ -92,7 +92,7 @@ Measured measure(const Campaign& campaign, const Method& method, const Mission& 
   double elapsed_s = 0;  // total of all runs
   double counted_s = 0;  // of the runs as long as the last one
   std::int64_t runs = 0;
-  Measured measured;
+  RandomRuns measured;
   constexpr std::int64_t kMostSeeds = 100'000;  // a limit in case no seed finds room for the swarm
   for (std::int64_t seed = 1;
        seed <= kMostSeeds && !controllers.empty() && (runs == 0 || elapsed_s < budget_s); ++seed) {
@@ -158,7 +158,7 @@ CampaignPlan plan_of(const Campaign& campaign) {
   double sum_s = 0;
   for (const CampaignMission& mission : campaign.missions) {
     for (const Method& method : campaign.methods) {
-      const Measured measured = measure(campaign, method, mission.mission, kMeasured_s / pairs);
+      const RandomRuns measured = measure(campaign, method, mission.mission, kMeasured_s / pairs);
       sum_s += measured.evaluation_s;
       warn_about_scores(mission.mission.name, measured, plan.warnings);
     }

@@ -290,7 +290,7 @@ class World {
           run_in_lock_step(end_, plan_.end.sensors, run_at(i), options_, table_.recorder());
       if (!result) return fail(output_, exit_code_of(result.error()), result.error());
       std::optional<bool> same;
-      if (words_.compare) same = in_process(i) == *result;
+      if (words_.compare) same = same_bits(in_process(i), *result);
       all_same = all_same && same.value_or(true);
       tell(plan_.seeds[i], *result, same);
       counter.tell(static_cast<std::int64_t>(i) + 1, static_cast<std::int64_t>(plan_.seeds.size()));
@@ -307,23 +307,16 @@ class World {
               "flavour and seed, and each its own random stream?");
   }
 
-  struct Bits {
-    SimulationResult result;
-    bool operator==(const SimulationResult& other) const {
-      return result.score == other.score && result.state_digest == other.state_digest;
-    }
-  };
-
-  Bits in_process(std::size_t i) const {
-    return {simulate({.controller = plan_.machine->controller,
-                      .flavour = plan_.machine->flavour,
-                      .profile = plan_.profile,
-                      .mission = plan_.mission,
-                      .instance = plan_.instances[i],
-                      .seed = plan_.seeds[i]})};
+  Measured in_process(std::size_t i) const {
+    return simulate({.controller = plan_.machine->controller,
+                     .flavour = plan_.machine->flavour,
+                     .profile = plan_.profile,
+                     .mission = plan_.mission,
+                     .instance = plan_.instances[i],
+                     .seed = plan_.seeds[i]});
   }
 
-  void tell(std::int64_t seed, const SimulationResult& result, std::optional<bool> same) {
+  void tell(std::int64_t seed, const Measured& result, std::optional<bool> same) {
     if (output_.json) {
       JsonObject object;
       object.add("seed", seed)

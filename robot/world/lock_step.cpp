@@ -191,9 +191,8 @@ Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions&
   }
 }
 
-Expected<SimulationResult> run_in_lock_step(WorldEnd& end, const SensorTopics& sensors,
-                                            const WorldRun& run, const WorldOptions& options,
-                                            const Recorder& recorder) {
+Expected<Measured> run_in_lock_step(WorldEnd& end, const SensorTopics& sensors, const WorldRun& run,
+                                    const WorldOptions& options, const Recorder& recorder) {
   if (const auto good = run.check(end); !good) return tl::unexpected(good.error());
   LockStep decider(end, sensors, run.seed, options);
   try {

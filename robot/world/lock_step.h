@@ -48,9 +48,8 @@ Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions&
 ///
 /// Unavailable: a robot did not answer; the error gives its name and the cycle. BadInput: the
 /// answer belongs to another question.
-Expected<SimulationResult> run_in_lock_step(WorldEnd& end, const SensorTopics& sensors,
-                                            const WorldRun& run, const WorldOptions& options,
-                                            const Recorder& recorder = {});
+Expected<Measured> run_in_lock_step(WorldEnd& end, const SensorTopics& sensors, const WorldRun& run,
+                                    const WorldOptions& options, const Recorder& recorder = {});
 
 /// Tells the nodes that there are no more runs (numbered lock-step), and waits for at most a second
 /// until they have received it.

@@ -181,7 +181,7 @@ Expected<RealTimeResult> run_in_real_time(WorldEnd& end, const SensorTopics& sen
       zero = *laboratory.start();
     }
     laboratory.begin_at(zero);
-    const SimulationResult result = simulate(run.setup(), recorder, &laboratory);
+    const Measured result = simulate(run.setup(), recorder, &laboratory);
     return RealTimeResult{.simulation = result,
                           .start = zero,
                           .latest = laboratory.latest(),

@@ -21,7 +21,7 @@ struct RealTimeOptions : WorldOptions {
 
 /// The result of a world in real time.
 struct RealTimeResult {
-  SimulationResult simulation;
+  Measured simulation;
   TimePoint start;           ///< instant 0
   Duration latest{};         ///< the largest delay of the world behind its clock
   int stops_by_silence = 0;  ///< how often a robot's driver stopped it because commands stopped

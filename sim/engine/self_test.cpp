@@ -80,12 +80,12 @@ std::string self_test_digest(Architecture architecture) {
       mission->cycles = 200;
       const Expected<Instance> instance = instance_of(*mission, 1);
       SWARMSMITH_ASSERT(instance.has_value(), "three robots fit into the arena");
-      const SimulationResult result = simulate({.controller = *controller,
-                                                .flavour = watermelon(),
-                                                .profile = profile,
-                                                .mission = *mission,
-                                                .instance = *instance,
-                                                .seed = 1});
+      const Measured result = simulate({.controller = *controller,
+                                        .flavour = watermelon(),
+                                        .profile = profile,
+                                        .mission = *mission,
+                                        .instance = *instance,
+                                        .seed = 1});
       digest.add(result.score);
       digest.add(result.state_digest);
     }

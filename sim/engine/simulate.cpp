@@ -148,7 +148,7 @@ class Run {
     }
   }
 
-  SimulationResult run() {
+  Measured run() {
     record(0);
     std::int64_t now = 0;
     for (int instant = 1; instant <= setup_.mission.cycles; ++instant) {
@@ -461,8 +461,7 @@ int engine_version_of(const Mission& mission, const Profile& profile) {
   return meets_obstacles ? kObstaclesVersion : kEngineVersion;
 }
 
-SimulationResult simulate(const SimulationSetup& setup, const Recorder& recorder,
-                          Decider* decider) {
+Measured simulate(const SimulationSetup& setup, const Recorder& recorder, Decider* decider) {
   SWARMSMITH_ASSERT(!setup.instance.starts.empty(), "an instance places at least one robot");
   return Run(setup, recorder, decider).run();
 }

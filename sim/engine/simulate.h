@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "base/measured.h"
 #include "sim/control/control_software.h"
 #include "sim/control/controller.h"
 #include "sim/control/flavour.h"
@@ -25,13 +26,6 @@ struct SimulationSetup {
   const Mission& mission;
   const Instance& instance;
   std::int64_t seed = 1;  ///< of noise and of the draws of control software
-};
-
-/// The result of one evaluation.
-struct SimulationResult {
-  double score = 0;                ///< larger is better
-  std::uint64_t state_digest = 0;  ///< of final poses, velocities and states: equal digests mean
-                                   ///< equal runs
 };
 
 /// The state of one robot at a global instant, for recorders and tests.
@@ -70,8 +64,8 @@ struct Recorder {
 ///
 /// A decider replaces `setup.controller`, which is then ignored; the result depends also on the
 /// decider's answers. Throws std::invalid_argument when the speeds of an answer are not finite.
-SimulationResult simulate(const SimulationSetup& setup, const Recorder& recorder = {},
-                          Decider* decider = nullptr);
+Measured simulate(const SimulationSetup& setup, const Recorder& recorder = {},
+                  Decider* decider = nullptr);
 
 /// Part of the digest of a campaign: it is raised with every change of the engine that changes the
 /// bits of a score.

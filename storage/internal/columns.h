@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "storage/internal/schema.h"
 
@@ -92,6 +93,28 @@ inline constexpr TableColumns kEvaluationColumns{
                                                {.name = "attempt", .is_checked = true},
                                                {.name = "time", .since = 2, .is_checked = true},
                                                {.name = "bound", .since = 2, .is_checked = true}})};
+
+/// The cells of these columns. `source` is the number of the row's source.
+inline auto cells_of(const EvaluationRow& row, std::int64_t source) {
+  const auto& [score, state_digest, wall_us, time] = row.measured;
+  const std::tuple cells(row.key.candidate.value, static_cast<std::int64_t>(row.key.purpose),
+                         row.key.pair, static_cast<std::int64_t>(row.status),
+                         row.status == EvaluationStatus::Ok ? &score : nullptr, state_digest,
+                         source, wall_us, row.worker, row.attempt, time == 0 ? nullptr : &time,
+                         row.bound == 0 ? nullptr : &row.bound);
+  static_assert(std::tuple_size_v<decltype(cells)> == kEvaluationColumns.size());
+  return cells;
+}
+
+/// What was measured, in a row of these columns.
+inline Measured measured_at(const sqlite::Statement& row) {
+  constexpr auto& kAll = kEvaluationColumns;
+  Measured measured;
+  measured_fields(measured) =
+      std::tuple(row.real(kAll.at("score")), row.bits(kAll.at("state_digest")),
+                 row.integer(kAll.at("wall_us")), row.real(kAll.at("time")));
+  return measured;
+}
 
 inline constexpr TableColumns kIterationColumns{
     "iteration", std::to_array<StoredColumn>({{"design"},

@@ -140,21 +140,10 @@ PairRow pair(const Statement& row) {
           .seed = row.integer(kPairColumns.at("seed"))};
 }
 
-Measured measured_at(const Statement& row) {
-  constexpr auto& kAll = kEvaluationColumns;
-  Measured measured;
-  auto& [score, state_digest, wall_us, time] = measured;
-  score = row.real(kAll.at("score"));
-  state_digest = row.bits(kAll.at("state_digest"));
-  wall_us = row.integer(kAll.at("wall_us"));
-  time = row.real(kAll.at("time"));
-  return measured;
-}
-
 /// The statement has the table's columns, then the iteration, then the name of the source.
 EvaluationRow evaluation(const Statement& row) {
   constexpr auto& kAll = kEvaluationColumns;
-  static_assert(kAll.size() == 12, "a new column is read here");
+  static_assert(kAll.size() - kMeasuredFields == 8, "a new column is read here");
   return {.key = key_at(row, kAll.at("candidate")),
           .iteration = row.integer(kAll.size()),
           .status = status_at(row, kAll.at("status")),
@@ -280,7 +269,8 @@ std::vector<DesignRow> read_designs(const sqlite::Connection& connection, const 
 
 std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const Part& part) {
   constexpr auto& kAll = kEvaluationColumns;
-  static_assert(kAll.size() == 12, "a new column is read here, if a resumed campaign needs it");
+  static_assert(kAll.size() - kMeasuredFields == 8,
+                "a new column is read here, if a resume needs it");
   std::vector<StoredScore> scores;
   Statement row(connection, "SELECT " + kAll.names(schema_of(connection)) +
                                 ", iteration FROM evaluation WHERE " +

@@ -63,10 +63,6 @@ std::optional<std::int64_t> unless_zero(std::int64_t value) {
   return value == 0 ? std::nullopt : std::optional(value);
 }
 
-std::optional<double> unless_zero(double value) {
-  return value == 0 ? std::nullopt : std::optional(value);
-}
-
 template <class Enum>
 std::int64_t number(Enum value) {
   return static_cast<std::int64_t>(value);
@@ -160,26 +156,23 @@ void RowWriter::put(const PairRow& row) {
 }
 
 void RowWriter::put(const EvaluationRow& row) {
+  const auto all = cells_of(row, source_id(row.source));
   const std::int64_t candidate = row.key.candidate.value;
   const std::int64_t purpose = number(row.key.purpose);
-  const auto& [measured_score, state_digest, wall_us, time] = row.measured;
-  const double* score = row.status == EvaluationStatus::Ok ? &measured_score : nullptr;
   const auto iteration = unless_zero(row.iteration);
   const bool is_new = std::apply(
       [&](const auto&... cells) {
-        static_assert(sizeof...(cells) == kEvaluationColumns.size());
         evaluation_.run(cells..., iteration, row_check(cells...));
         if (connection_.changes() == 0) return false;
         if (sums_) sums_->add(Table::Evaluation, RowHash::of(cells...));
         return true;
       },
-      std::tuple(candidate, purpose, row.key.pair, number(row.status), score, state_digest,
-                 source_id(row.source), wall_us, row.worker, row.attempt, unless_zero(time),
-                 unless_zero(row.bound)));
+      all);
   bool is_used = is_new;
   if (!is_new && iteration) {
-    used_.run(candidate, purpose, row.key.pair, iteration, number(row.status), score, state_digest,
-              unless_zero(time));
+    used_.run(candidate, purpose, row.key.pair, iteration, number(row.status),
+              std::get<kEvaluationColumns.at("score")>(all), row.measured.state_digest,
+              std::get<kEvaluationColumns.at("time")>(all));
     is_used = connection_.changes() > 0;
   }
   if (sums_ && iteration && is_used)

@@ -17,8 +17,8 @@ inline constexpr std::int64_t kApplicationId = 0x5377536d;
 /// Version of tables and views (PRAGMA user_version). Any change of either is a new version, but
 /// new modules in flavour_name are not.
 inline constexpr std::int64_t kSchemaVersion = 15;
-/// The last version that changed existing tables. Later versions added only indexes and new tables,
-/// or changed views of the same tables.
+/// The last version that gave an existing table a column that a view shows. Views are lent to
+/// stores of this version and later ones.
 inline constexpr std::int64_t kTablesVersion = 6;
 
 /// The step from one version to the next; runs in its own transaction. Views need no step, since

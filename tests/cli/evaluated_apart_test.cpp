@@ -23,8 +23,7 @@ std::vector<StoredRun> runs(std::int64_t count) {
 
 TEST(EvaluatedApart, GivesTheResultsInTheirOrder) {
   const auto again = evaluate_apart(runs(300), [](const StoredRun& run) {
-    return SimulationResult{static_cast<double>(run.seed) / 3,
-                            ~static_cast<std::uint64_t>(run.seed)};
+    return Measured{static_cast<double>(run.seed) / 3, ~static_cast<std::uint64_t>(run.seed)};
   });
   ASSERT_TRUE(again);
   ASSERT_EQ(again->size(), 300U);
@@ -38,7 +37,7 @@ TEST(EvaluatedApart, GivesTheResultsInTheirOrder) {
 
 /// What kills a process is the outcome of one run, and the next ones have theirs.
 TEST(EvaluatedApart, SurvivesEachKindOfDeath) {
-  const auto again = evaluate_apart(runs(9), [](const StoredRun& run) -> SimulationResult {
+  const auto again = evaluate_apart(runs(9), [](const StoredRun& run) -> Measured {
     switch (run.seed) {
       case 2:
         std::abort();

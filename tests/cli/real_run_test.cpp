@@ -32,7 +32,7 @@ RealRunRows filmed(std::uint64_t number, CandidateId candidate) {
   rows.patches.clear();
   rows.cycles.clear();
   rows.robots.push_back({.robot = 2, .name = "rvr3", .tag = 3});
-  const SimulationResult result =
+  const Measured result =
       simulate({.controller = machine,
                 .flavour = watermelon(),
                 .profile = *built_in_profile("rvr"),

@@ -19,7 +19,7 @@ using nlohmann::json;
 const std::string kTwoStatesText =
     "--nstates 2 --s0 0 --rwm0 10 --n0 1 --n0x0 0 --c0x0 0 --p0x0 0.5 --s1 1";
 
-SimulationResult result_of(const std::string& machine_text, std::int64_t seed) {
+Measured result_of(const std::string& machine_text, std::int64_t seed) {
   const CampaignMission mission = one_design_campaign().missions.front();
   const Machine machine = *parse_machine(machine_text, watermelon());
   const Instance instance = *instance_of(mission.mission, seed);
@@ -60,13 +60,13 @@ void write_true_store(const std::filesystem::path& file, const CampaignRow& camp
     rows.emplace_back(complete);
   };
   for (std::int64_t pair = 1; pair <= 5; ++pair) {
-    const SimulationResult result = result_of(kTwoStatesText, 20 + pair);
+    const Measured result = result_of(kTwoStatesText, 20 + pair);
     add(Purpose::Race, pair, 20 + pair,
         {.iteration = 1, .measured = {.score = result.score, .state_digest = result.state_digest}});
   }
   add(Purpose::Race, 6, 26, {.iteration = 1, .status = EvaluationStatus::Rejected});
   add(Purpose::Race, 7, 0, {.iteration = 1, .measured = {.score = 1}});
-  const SimulationResult test = result_of(kTwoStatesText, 99);
+  const Measured test = result_of(kTwoStatesText, 99);
   add(Purpose::Test, 1, 99, {.measured = {.score = test.score, .state_digest = test.state_digest}});
   add(Purpose::Audit, 1, 99,
       {.measured = {.score = test.score, .state_digest = test.state_digest + 1}});
@@ -84,7 +84,7 @@ class Replay : public testing::Test {
 };
 
 TEST_F(Replay, FindsTheSameBits) {
-  const SimulationResult wanted = result_of(kTwoStatesText, 22);
+  const Measured wanted = result_of(kTwoStatesText, 22);
   const Ran ran = run_well({"replay", "e100002", store_});
   EXPECT_THAT(ran.out, StartsWith("e100002: same bits as stored: score "));
   const json found = json::parse(run({"replay", "e100002", store_, "--json"}).out);

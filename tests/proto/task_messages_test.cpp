@@ -51,11 +51,8 @@ TEST(TaskMessages, GiveBackTheResult) {
   const Result read = result_of(message);
   EXPECT_EQ(read.key, result.key);
   EXPECT_EQ(read.attempt, 1);
-  EXPECT_EQ(read.measured.score, 1.0 / 3);
-  EXPECT_EQ(read.measured.state_digest, 2U);
-  EXPECT_EQ(read.measured.wall_us, 3);
+  EXPECT_EQ(measured_fields(read.measured), measured_fields(result.measured));
   EXPECT_TRUE(read.rejected);
-  EXPECT_EQ(read.measured.time, 0.5);
   EXPECT_EQ(read.failure, "why");
   EXPECT_EQ(read.details, result.details);
   EXPECT_EQ(read.signature, 4U);

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
+#include "tests/storage/fixture.h"
 #include "tests/support/checks.h"
 
 // The lists of columns against the tables that the scripts make, schema by schema.
@@ -63,6 +65,61 @@ TEST_P(Columns, AreThoseOfTheTables) {
   expect(kDesignStateColumns,
          {"campaign", "mission", "method", "flavour", "name", "repetition", "seed", "budget"});
   expect(kCommandColumns, {"time"});
+}
+
+/// A view whose table is newer than the store cannot be used; others can.
+TEST_P(Columns, AreThoseThatTheLentViewsNeed) {
+  finish_schema(memory_, GetParam());
+  configure_reader(memory_);
+  lend_views(memory_);
+  std::vector<std::string> views;
+  sqlite::Statement view(memory_, "SELECT name FROM temp.sqlite_schema");
+  while (view.step())
+    views.push_back(view.text(0));
+  EXPECT_EQ(views.empty(), GetParam() < kTablesVersion);
+  for (const std::string& name : views) {
+    try {
+      sqlite::Statement(memory_, "SELECT * FROM temp." + name);
+    } catch (const sqlite::SqliteError& error) {
+      EXPECT_THAT(std::string(error.what()), StartsWith("no such table"))
+          << name << ": raise kTablesVersion";
+    }
+  }
+}
+
+/// Whatever is measured arrives: in the view, and where rows are read again.
+TEST(MeasuredNumbers, AreInTheViewOfEvaluationsAndAreReadAgain) {
+  Measured measured;
+  const auto fields = measured_fields(measured);
+  int number = 0;
+  const auto count = [&]<class Field>(Field& field) { field = static_cast<Field>(++number); };
+  std::apply([&](auto&... each) { (count(each), ...); }, fields);
+  const TemporaryFolder folder;
+  const SyntheticCampaign campaign =
+      synthetic_campaign({.designs = 1, .iterations = 1, .candidates = 4});
+  const CandidateId candidate = candidate_id({1}, 1);
+  {
+    auto store = open_store(folder / "s.db", campaign);
+    store->append(
+        {CandidateRow{.id = candidate, .iteration = 1, .parameters = "{}", .modules = "{}"},
+         PairRow{.design = {1}, .purpose = Purpose::Test, .number = 1, .instance = 1, .seed = 1},
+         EvaluationRow{
+             .key = {candidate, Purpose::Test, 1}, .measured = measured, .source = "rvr"}});
+    ASSERT_TRUE(store->flush());
+  }
+  const auto reader = open_reader(folder / "s.db");
+  constexpr auto kShown =
+      std::to_array<std::string_view>({"score", "state_digest", "1000 * wall_ms", "time"});
+  static_assert(kShown.size() == kMeasuredFields);
+  for (std::size_t i = 0; i < kShown.size(); ++i) {
+    EXPECT_THAT(cells_of(*reader, "SELECT CAST(" + std::string(kShown[i]) +
+                                      " AS INTEGER) FROM v_evaluations"),
+                ElementsAre(ElementsAre(std::to_string(i + 1))))
+        << kShown[i];
+  }
+  const std::vector<StoredScore> scores = reader->scores();
+  ASSERT_EQ(scores.size(), 1U);
+  EXPECT_EQ(measured_fields(scores.front().measured), fields);
 }
 
 TEST(InsertOfColumns, NamesEachAndHasAMarkForIt) {

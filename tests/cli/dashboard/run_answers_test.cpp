@@ -22,8 +22,8 @@ const std::string kTwoStatesText =
 constexpr std::int64_t kSeed = 21;
 
 /// A run of the demo's mission, as a recorder sees it.
-SimulationResult simulated(const std::string& text, std::int64_t seed, const Mission& mission,
-                           const Recorder& recorder = {}) {
+Measured simulated(const std::string& text, std::int64_t seed, const Mission& mission,
+                   const Recorder& recorder = {}) {
   const Machine machine = *parse_machine(text, watermelon());
   const Instance instance = *instance_of(mission, seed);
   return simulate({.controller = machine,
@@ -48,7 +48,7 @@ class RunAnswersTest : public testing::Test {
     auto store = value_of(Store::open(store_, campaign_row(campaign), design_rows(campaign)));
     const DesignId design{1};
     const CandidateId candidate = candidate_id(design, 1);
-    const SimulationResult truth = simulated(kTwoStatesText, kSeed, demo_mission());
+    const Measured truth = simulated(kTwoStatesText, kSeed, demo_mission());
     store->append(
         {IterationRow{.design = design, .number = 1, .of = 2, .budget = 100, .configurations = 1},
          CandidateRow{.id = candidate,
@@ -191,7 +191,7 @@ TEST_F(RunAnswersTest, ARealRunIsShownAsItWasMeasured) {
   rows.cycles.clear();
   rows.robots.push_back({.robot = 2, .name = "<b>rvr3</b>", .tag = 3});
   std::vector<Pose> last;
-  const SimulationResult result =
+  const Measured result =
       simulated(kTwoStatesText, 5, entry.mission, Recorder([&](const Snapshot& snapshot) {
                   last.clear();
                   for (std::size_t robot = 0; robot < snapshot.robots.size(); ++robot) {

@@ -144,12 +144,12 @@ TEST_F(Referees, GiveTheScoreOfTheSimulator) {
     const Ruling ruling = ruling_on(task);
     const Flavour flavour = *find_flavour("watermelon", TurnClock::Cycles);
     const Machine machine = *parse_machine(task.machine, flavour);
-    const SimulationResult wanted = simulate({.controller = machine,
-                                              .flavour = flavour,
-                                              .profile = *built_in_profile("rvr"),
-                                              .mission = mission,
-                                              .instance = *instance_of(mission, task.seed),
-                                              .seed = task.seed});
+    const Measured wanted = simulate({.controller = machine,
+                                      .flavour = flavour,
+                                      .profile = *built_in_profile("rvr"),
+                                      .mission = mission,
+                                      .instance = *instance_of(mission, task.seed),
+                                      .seed = task.seed});
     EXPECT_EQ(ruling.kind, Ruling::Kind::Score) << ruling.reason;
     EXPECT_EQ(ruling.key, key_of(task));
     EXPECT_EQ(ruling.measured.score, wanted.score);

@@ -288,12 +288,12 @@ TEST(NodeLoop, InLockStepGivesTheBitsOfTheSimulatorAndLogsThatReplay) {
     const auto result = value_of(run_in_lock_step(
         swarm.world(), sensors,
         {.profile = profile, .mission = mission, .instance = instance, .seed = seed}, {}));
-    const SimulationResult wanted = simulate({.controller = controller,
-                                              .flavour = watermelon(),
-                                              .profile = profile,
-                                              .mission = mission,
-                                              .instance = instance,
-                                              .seed = seed});
+    const Measured wanted = simulate({.controller = controller,
+                                      .flavour = watermelon(),
+                                      .profile = profile,
+                                      .mission = mission,
+                                      .instance = instance,
+                                      .seed = seed});
     EXPECT_EQ(result.score, wanted.score);
     EXPECT_EQ(result.state_digest, wanted.state_digest);
   }

@@ -80,7 +80,7 @@ struct Scene {
   WorldRun run() const {
     return {.profile = profile, .mission = mission, .instance = instance, .seed = seed};
   }
-  SimulationResult alone() const {
+  Measured alone() const {
     return simulate({.controller = controller,
                      .flavour = watermelon(),
                      .profile = profile,
@@ -143,7 +143,7 @@ TEST(LockStep, AnotherRandomStreamIsAnotherRun) {
 
 /// Answers for all robots until `until`; then in another way.
 template <class Answer>
-Expected<SimulationResult> run_against(Answer answer_as) {
+Expected<Measured> run_against(Answer answer_as) {
   const Scene scene("argos3");
   InProcessSwarm swarm(names());
   std::atomic<bool> over{false};

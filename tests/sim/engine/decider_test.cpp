@@ -145,7 +145,7 @@ class OtherSide : public Decider {
 
 /// What is recorded of a run, and its result.
 struct Recorded {
-  SimulationResult result;
+  Measured result;
   std::vector<Command> commands;
   std::vector<int> states;
 
@@ -287,7 +287,7 @@ TEST_F(ShortRun, AllThatAreDueAreAskedBeforeTheFirstAnswer) {
 TEST_F(ShortRun, EveryStepIsAnInstantOnRequest) {
   Listener decider(setup());
   decider.every_step = true;
-  const SimulationResult result = simulate(setup(), {}, &decider);
+  const Measured result = simulate(setup(), {}, &decider);
   EXPECT_EQ(std::count(decider.calls.begin(), decider.calls.end(), 'b'), 500);
   EXPECT_EQ(decider.answered.size(), 3 * 500);
   EXPECT_EQ(result.score, simulate(setup()).score) << "rounding apart it is the same run";

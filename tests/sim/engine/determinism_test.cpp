@@ -89,18 +89,18 @@ std::string hash_of(Mission mission, const std::string& flavour_name,
   const Profile profile = built_in_profile(profile_name).value();
   const Instance instance = instance_of(mission, 17).value();
   Digest digest;
-  const SimulationResult result = simulate({.controller = machine,
-                                            .flavour = flavour,
-                                            .profile = profile,
-                                            .mission = mission,
-                                            .instance = instance,
-                                            .seed = 17},
-                                           [&](const Snapshot& now) {
-                                             for (const RobotRecord& robot : now.robots)
-                                               add(robot.pose, digest);
-                                             for (const Pose& object : now.objects)
-                                               add(object, digest);
-                                           });
+  const Measured result = simulate({.controller = machine,
+                                    .flavour = flavour,
+                                    .profile = profile,
+                                    .mission = mission,
+                                    .instance = instance,
+                                    .seed = 17},
+                                   [&](const Snapshot& now) {
+                                     for (const RobotRecord& robot : now.robots)
+                                       add(robot.pose, digest);
+                                     for (const Pose& object : now.objects)
+                                       add(object, digest);
+                                   });
   digest.add(result.state_digest);
   digest.add(result.score);
   return digest.hex();

@@ -167,7 +167,7 @@ struct Recorded {
     mission.arena.lights = {{.x_m = 0.5, .y_m = 0.5, .z_m = 1}};
     instance = instance_of(mission, seed).value();
   }
-  SimulationResult run(const Recorder& recorder) const {
+  Measured run(const Recorder& recorder) const {
     return simulate({machine, flavour, profile, mission, instance, seed}, recorder);
   }
 };
@@ -175,9 +175,9 @@ struct Recorded {
 TEST(RecordedSensors, ChangeNothing) {
   for (const char* profile : {"argos3", "rvr", "pseudo-reality"}) {
     const Recorded recorded(profile);
-    const SimulationResult plain = recorded.run({});
+    const Measured plain = recorded.run({});
     int read = 0;
-    const SimulationResult watched = recorded.run(Recorder(
+    const Measured watched = recorded.run(Recorder(
         [&](const Snapshot& now) {
           for (const RobotRecord& robot : now.robots)
             read += robot.readings != nullptr && robot.readings->lidar_m.size() == 719 ? 1 : 0;

@@ -13,8 +13,8 @@ ReferenceRuns::ReferenceRuns(const char* mission_name)
       flavour(&watermelon_argos3()),
       profile(built_in_profile("argos3").value()) {}
 
-SimulationResult ReferenceRuns::run(const Controller& controller, int seed, int stream,
-                                    const Recorder& recorder) const {
+Measured ReferenceRuns::run(const Controller& controller, int seed, int stream,
+                            const Recorder& recorder) const {
   return simulate({.controller = controller,
                    .flavour = *flavour,
                    .profile = profile,

@@ -17,8 +17,8 @@ struct ReferenceRuns {
   explicit ReferenceRuns(const char* mission_name);
 
   /// `seed` (1..100) gives starts and patches; `stream` more control draws for the same instance.
-  SimulationResult run(const Controller& controller, int seed, int stream = 0,
-                       const Recorder& recorder = {}) const;
+  Measured run(const Controller& controller, int seed, int stream = 0,
+               const Recorder& recorder = {}) const;
 
   Mission mission;
   std::vector<Instance> instances;

@@ -24,7 +24,7 @@ TEST(Simulate, ScoresObjectsThatAreMovedAsTheRecordedTrajectoryDoes) {
   const Instance instance{.starts = {{0, 0, 0}}, .patches = {}};
 
   Trajectory trajectory{.robots = 1, .poses = {}, .objects = 1, .object_poses = {}};
-  const SimulationResult result =
+  const Measured result =
       simulate({machine, flavour, profile, mission, instance, 1}, [&](const Snapshot& now) {
         if (now.cycle == 0) return;
         trajectory.poses.push_back(now.robots[0].pose);

@@ -32,7 +32,7 @@ struct Job {
   Instance instance;
   std::int64_t seed;
 
-  SimulationResult run(const Recorder& recorder = {}) const {
+  Measured run(const Recorder& recorder = {}) const {
     return simulate({machine, *flavour, profile, mission, instance, seed}, recorder);
   }
 };
@@ -68,16 +68,14 @@ std::vector<Job> varied_jobs() {
   return jobs;
 }
 
-std::vector<SimulationResult> in_order(const std::vector<Job>& jobs,
-                                       std::vector<std::size_t> order) {
-  std::vector<SimulationResult> results(jobs.size());
+std::vector<Measured> in_order(const std::vector<Job>& jobs, std::vector<std::size_t> order) {
+  std::vector<Measured> results(jobs.size());
   for (const std::size_t i : order)
     results[i] = jobs[i].run();
   return results;
 }
 
-std::uint64_t digest_of(const std::vector<Job>& jobs,
-                        const std::vector<SimulationResult>& results) {
+std::uint64_t digest_of(const std::vector<Job>& jobs, const std::vector<Measured>& results) {
   Digest digest;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     // Box2D's bits depend on how the system's library was compiled: not fixed here.
@@ -88,7 +86,7 @@ std::uint64_t digest_of(const std::vector<Job>& jobs,
   return digest.value64();
 }
 
-bool same(const std::vector<SimulationResult>& a, const std::vector<SimulationResult>& b) {
+bool same(const std::vector<Measured>& a, const std::vector<Measured>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
     return x.score == y.score && x.state_digest == y.state_digest;
   });
@@ -98,11 +96,11 @@ TEST(Simulate, GivesTheSameBitsInAnyOrderAndInAnyThread) {
   const std::vector<Job> jobs = varied_jobs();
   std::vector<std::size_t> order(jobs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const std::vector<SimulationResult> forwards = in_order(jobs, order);
+  const std::vector<Measured> forwards = in_order(jobs, order);
   std::reverse(order.begin(), order.end());
   EXPECT_TRUE(same(in_order(jobs, order), forwards)) << "in reverse order";
 
-  std::vector<SimulationResult> threaded(jobs.size());
+  std::vector<Measured> threaded(jobs.size());
   {
     std::vector<std::jthread> threads;
     for (std::size_t first = 0; first < 4; ++first) {
@@ -121,15 +119,15 @@ TEST(Simulate, GivesTheSameBitsInAnyOrderAndInAnyThread) {
 
 TEST(Simulate, ARecorderChangesNothing) {
   const Job job = job_of(kPusher, "grid_exploration", "rvr", 5);
-  const SimulationResult plain = job.run();
-  const SimulationResult recorded = job.run([](const Snapshot&) {});
+  const Measured plain = job.run();
+  const Measured recorded = job.run([](const Snapshot&) {});
   EXPECT_EQ(plain.score, recorded.score);
   EXPECT_EQ(plain.state_digest, recorded.state_digest);
 }
 
 TEST(Simulate, SeedsDifferInNoiseAndDraws) {
   Job job = job_of(kPusher, "grid_exploration", "rvr", 5);
-  const SimulationResult one = job.run();
+  const Measured one = job.run();
   job.seed = 6;
   EXPECT_NE(one.state_digest, job.run().state_digest);
 }
@@ -161,7 +159,7 @@ TEST(Simulate, ScoresWhatTheRecordedTrajectoryScores) {
   for (const ReferenceMission& name : kReferenceMissions) {
     const Job job = job_of(reference_machines()[1], name.ours, "rvr", 7);
     Trajectory trajectory{.robots = 3, .poses = {}};
-    const SimulationResult result = job.run([&](const Snapshot& now) {
+    const Measured result = job.run([&](const Snapshot& now) {
       for (const RobotRecord& robot : now.robots) {
         if (now.cycle > 0) trajectory.poses.push_back(robot.pose);
       }
@@ -212,7 +210,7 @@ TEST(Simulate, RobotsThatGatherAndStandForLongStayFinite) {
                     "--p2x1 5 --w2x1 8.85"},
                    "aggregation", "rvr", 701'138'031, watermelon());
   int cycles = 0;
-  const SimulationResult result = job.run([&](const Snapshot& now) {
+  const Measured result = job.run([&](const Snapshot& now) {
     cycles = now.cycle;
     for (const RobotRecord& robot : now.robots)
       ASSERT_TRUE(std::isfinite(robot.pose.x + robot.pose.y + robot.pose.theta)) << now.cycle;
@@ -271,7 +269,7 @@ TEST(Simulate, ASwarmOfTenFitsTheSameCode) {
   Job job = job_of(kPusher, "grid_exploration", "rvr", 11);
   job.mission.robots = 10;
   job.instance = instance_of(job.mission, 11).value();
-  const SimulationResult result = job.run();
+  const Measured result = job.run();
   EXPECT_TRUE(std::isfinite(result.score));
   EXPECT_EQ(result.state_digest, job.run().state_digest);
 }

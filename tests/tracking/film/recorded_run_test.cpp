@@ -28,7 +28,7 @@ TEST(RecordedRunTest, IsTheRunThatTheSimulatorScores) {
     const Flavour& flavour = **find_flavour(wish.flavour);
     const Machine machine = *parse_machine(kMachine, flavour);
     const auto profile = *find_profile(wish.profile, ".");
-    const SimulationResult result =
+    const Measured result =
         simulate({machine, flavour, profile, run.mission, run.instance, wish.seed});
     EXPECT_EQ(run.score, result.score) << mission;
     EXPECT_EQ(run.trajectory.instants(), 300);

@@ -148,7 +148,7 @@ Recorded recorded_run(const char* mission_name, const ReferenceMachine& machine,
   const Flavour& flavour = watermelon_argos3();
   const Machine parsed = parse_machine(machine.text, flavour).value();
   const Profile profile = built_in_profile("rvr").value();
-  const SimulationResult result =
+  const Measured result =
       simulate({parsed, flavour, profile, run.mission, run.instance, seed},
                Recorder([&](const Snapshot& snapshot) {
                  for (std::size_t i = 0; i < run.robots.size(); ++i)
