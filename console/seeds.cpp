@@ -47,7 +47,7 @@ Expected<std::vector<std::int64_t>> parse_seeds(std::string_view text) {
   std::vector<std::int64_t> sorted = seeds;
   std::ranges::sort(sorted);
   if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-    return bad_input("seed " + std::to_string(*twice) + " is there twice", "--seeds");
+    return bad_input("seed " + std::to_string(*twice) + " occurs twice", "--seeds");
   return seeds;
 }
 

@@ -54,7 +54,7 @@ Expected<std::string> gunzip(std::string_view packed, std::size_t most) {
   inflateEnd(&stream);
   if (state == Z_STREAM_END && bytes.size() <= most) return bytes;
   return unexpected(ErrorKind::Corrupt, state == Z_STREAM_END || state == Z_OK
-                                            ? "more comes out of it than may be"
+                                            ? "unpacked, it is larger than the limit"
                                             : "this is not a whole gzip file");
 }
 

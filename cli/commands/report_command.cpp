@@ -37,10 +37,9 @@ ExitCode run_report(const ReportArguments& arguments, Output& output) {
   }
   const bool to_output = arguments.file == "-";
   if (to_output && output.json) {
-    return fail(
-        output, ExitCode::Usage,
-        Error{ErrorKind::BadInput,
-              "standard output has the answer of --json; name a file for the report", "-o"});
+    return fail(output, ExitCode::Usage,
+                Error{ErrorKind::BadInput,
+                      "--json writes to standard output; name a file for the report", "-o"});
   }
   const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());

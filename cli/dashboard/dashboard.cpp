@@ -218,7 +218,7 @@ class Dashboard final : public HttpSite {
 
   static Expected<Answer> busy() {
     return unexpected(ErrorKind::Unavailable,
-                      "too much is being computed already; ask again in a second");
+                      "too many answers are being computed; ask again in a second");
   }
 
   Expected<Answer> ask(const SiteRequest& request, const DashboardStore& store,

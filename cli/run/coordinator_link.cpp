@@ -124,7 +124,7 @@ Expected<std::string> command_by_wire(const CoordinatorSearch& search, const std
   return unexpected(ErrorKind::Unavailable,
                     "the coordinator has not confirmed the command within " +
                         std::to_string(patience.count()) +
-                        " s; it may still carry it out: `swarmsmith status STORE` tells",
+                        " s; it may still carry it out: `swarmsmith status STORE` shows it",
                     found->endpoint);
 }
 

@@ -84,7 +84,7 @@ TEST(OutputPlaceTest, OfAnotherKindIsNotReplaced) {
   const TemporaryFolder folder;
   write(folder / "arena.toml", "format = 1\n");
   EXPECT_THAT(refusal(folder / "arena.toml", FileKind::WebPage),
-              HasSubstr("is there already and is a TOML file, not a web page"));
+              HasSubstr("already exists and is a TOML file, not a web page"));
   EXPECT_EQ(refusal(folder / "arena.toml", FileKind::Toml), "");
   write(folder / "empty", "");
   EXPECT_EQ(refusal(folder / "empty", FileKind::Video), "");

@@ -208,7 +208,7 @@ TEST(Evaluate, TakesAFlavourFromAFile) {
                                    "another robot\n"));
   write_file(folder / "mine.toml", "format = 1\nbase = \"watermelon\"\nstates = 20\n");
   EXPECT_THAT(evaluate(kExploreText, file).err,
-              HasSubstr("mine.toml:3:10: `states` must be from 1 to 16, this is 20"));
+              HasSubstr("mine.toml:3:10: `states` must be from 1 to 16, not 20"));
 }
 
 TEST(Flavours, AreListedPrintedAndWrittenButNotOver) {
@@ -473,7 +473,7 @@ TEST(Seeds, AreRangesAndLists) {
   for (const char* twice : {"3,3,3", "1-4,3", "3,1-4"}) {
     const auto seeds = parse_seeds(twice);
     ASSERT_FALSE(seeds) << twice;
-    EXPECT_EQ(to_string(seeds.error()), "--seeds: seed 3 is there twice");
+    EXPECT_EQ(to_string(seeds.error()), "--seeds: seed 3 occurs twice");
   }
 }
 

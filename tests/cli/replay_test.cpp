@@ -289,7 +289,7 @@ TEST_F(Replay, EmptiesNoOutputBeforeAllAreAllowed) {
   std::ofstream(text) << "notes of a person\n";
   const Ran ran = run({"replay", "e100001", "--store", store_, "--csv", table, "--svg", text});
   EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("notes.txt: is there already and is a text"));
+  EXPECT_THAT(ran.err, HasSubstr("notes.txt: already exists and is a text"));
   EXPECT_GT(std::filesystem::file_size(table), 0);
 }
 

@@ -300,7 +300,7 @@ class Survival(Irace):
         self.assertEqual(process.returncode, 130)
         self.assertIn("the same command continues", errors)
         done = self.irace()
-        self.assertIn(": Going on after ", done.stdout)
+        self.assertIn(": Continuing after ", done.stdout)
         self.assertEqual(len(set(self.calls())), len(self.query(
             "SELECT * FROM v_evaluations")))
 
@@ -322,7 +322,7 @@ class Failures(Irace):
         failed = self.calls()[40:]
         self.write_runner(PRINT)
         done = self.irace()
-        self.assertIn("Going on after", done.stdout)
+        self.assertIn("Continuing after", done.stdout)
         again = [line for line in set(self.calls()) if self.calls().count(line) > 1]
         self.assertEqual(set(again), set(failed))
         self.assert_clean()

@@ -125,7 +125,7 @@ class Words(ProgramTest):
         self.refused("the control software is a network, and .argos files of RVRs are of state machines "
                      "alone", "export", store, "--design", "d3", "--format", "argos")
         done = ended_well(call("export", store, "--format", "argos", "-o", self.folder / "experiments"))
-        self.assertIn("2 of 5 are left out: .argos files are of state machines, and of trees for e-pucks", done.stderr)
+        self.assertIn("2 of 5 are left out: .argos files can hold state machines, and for e-pucks trees", done.stderr)
         written = sorted(path.name[:2] for path in (self.folder / "experiments").iterdir())
         self.assertEqual(written, ["d1", "d2", "d5"])
 

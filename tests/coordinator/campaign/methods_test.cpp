@@ -295,7 +295,7 @@ TEST(Methods, TakeAsManyConfigurationsAsAnFRaceCanTest) {
 
 TEST(Methods, SayWhyAnFRaceIsTooSmallOrTooLarge) {
   EXPECT_THAT(complaint_about("method = \"vanilla\"\n[method.f-race]\nconfigurations = 1\n"),
-              HasSubstr("`configurations` must be 0 (automatic) or at least 2, this is 1"));
+              HasSubstr("`configurations` must be 0 (automatic) or at least 2, not 1"));
   const std::string large =
       complaint_about("method = \"vanilla\"\n[method.f-race]\nconfigurations = 50000\n");
   EXPECT_THAT(large, HasSubstr("`configurations` is 50000"));
