@@ -120,7 +120,7 @@ ExitCode write_snapshot(const DashboardArguments& arguments, Output& output) {
     if (!design) {
       return fail(
           output, ExitCode::Usage,
-          Error{ErrorKind::BadInput, "wants an id such as d3, not \"" + text + "\"", "--design"});
+          Error{ErrorKind::BadInput, "must be an id such as d3, not \"" + text + "\"", "--design"});
     }
     options.designs.push_back(*design);
   }

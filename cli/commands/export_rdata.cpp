@@ -37,7 +37,7 @@ Expected<DesignId> wanted_design(StoreReader& store, const std::string& word) {
   if (word.empty()) return bad_input("no design given; the store has: " + known, "--design");
   const auto id = parse_thing_id(word);
   if (!id || id->letter != 'd') {
-    return bad_input("wants an id such as d3, not \"" + word + "\"", "--design");
+    return bad_input("must be an id such as d3, not \"" + word + "\"", "--design");
   }
   return unexpected(ErrorKind::NotFound, "the store has no design " + word + "; it has: " + known);
 }

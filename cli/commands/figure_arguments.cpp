@@ -16,7 +16,7 @@ Expected<std::int64_t> number_of(const std::string& text, char letter, const cha
   const auto id = parse_thing_id(text);
   if (id && id->letter == letter) return std::stoll(id->digits);
   const std::string example = letter == 'd' ? "d3" : "c812";
-  return bad_input("wants an id such as " + example + ", not \"" + text + "\"", option);
+  return bad_input("must be an id such as " + example + ", not \"" + text + "\"", option);
 }
 
 /// Seeds of runs that are simulated again.

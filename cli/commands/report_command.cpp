@@ -31,7 +31,7 @@ ExitCode run_report(const ReportArguments& arguments, Output& output) {
     if (!id || id->letter != 'd') {
       return fail(output, ExitCode::Usage,
                   Error{ErrorKind::BadInput,
-                        "wants a design such as d3, or \"all\", not \"" + text + "\"", "--design"});
+                        "must be a design such as d3, or \"all\", not \"" + text + "\"", "--design"});
     }
     options.designs.push_back({std::stoll(id->digits)});
   }

@@ -81,7 +81,8 @@ Expected<MethodSpace> MethodSpace::make(const Method& method, int digits, bool a
   if (const std::size_t bytes = longest_call(*made.parameters_); bytes > kMostCallBytes) {
     return bad_input("switches and values of one call may take " + std::to_string(bytes) +
                          " bytes, and a program is given at most " +
-                         std::to_string(kMostCallBytes) + ": fewer parameters, or shorter switches",
+                         std::to_string(kMostCallBytes) +
+                         ": use fewer parameters, or shorter switches",
                      "parameters");
   }
   if (method.configurations.empty()) return made;

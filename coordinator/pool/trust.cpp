@@ -276,7 +276,7 @@ void Trust::convict(Principal& principal, WorkerNumber worker, const std::string
                     std::to_string(unchecked) + " results of " + principal.name +
                     " are stored without a check. `swarmsmith recover STORE --without-key \"" +
                     key_of_principal(principal.name) +
-                    "\" -o NEW.db` makes a store without what it said, and the campaign goes on "
+                    "\" -o NEW.db` makes a store without its results, and the campaign continues "
                     "from there with --store NEW.db",
                 true);
   }
@@ -411,7 +411,7 @@ std::vector<std::string> Trust::forgive(std::string_view word, const std::string
       if (entry.connected) {
         book_->act(
             SendNotice{entry.peer, entry.hello.incarnation,
-                       "a person let this worker work again: it is in quarantine no longer"});
+                       "a person let this worker work again: it is no longer in quarantine"});
       }
     }
     update_room(principal);

@@ -257,8 +257,8 @@ void Trust::compare_with_stored(const Case& ruled, const Ruling& ruling) {
                            text_of(said) + ", and this host gives " + text_of(ruling) +
                            ". `swarmsmith show STORE " + to_string(ruled.task.key) +
                            "` names the worker that gave it; `swarmsmith recover STORE "
-                           "--without-key KEY -o NEW.db` makes a store without what its key said, "
-                           "and the campaign goes on from there with --store NEW.db",
+                           "--without-key KEY -o NEW.db` makes a store without the results of its "
+                           "key, and the campaign continues from there with --store NEW.db",
                        true);
   }
 }

@@ -259,7 +259,7 @@ Expected<std::string> Coordinator::obey(std::uint32_t index, const pb::Command& 
   campaign.sees_no_further = false;
   const std::string name = to_string(row.design);
   if (row.kind == CommandKind::Cancel) return name + " is cancelled";
-  return name + " gets " + std::to_string(row.budget) + " experiments more";
+  return name + " gets " + std::to_string(row.budget) + " more experiments";
 }
 
 /// A command to the pool: every store gets the rows, and the answer waits for the first commit.

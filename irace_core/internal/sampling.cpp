@@ -80,9 +80,10 @@ Expected<Configuration> repaired(const ParameterSpace& space, const Repair& repa
   if (!repair) return sampled;
   auto changed = repair(sampled);
   if (!changed) return changed;
-  const auto checked = changed->size() == space.size()
-                           ? space.check(*changed)
-                           : Expected<void>(bad_input("has not one value for each parameter"));
+  const auto checked =
+      changed->size() == space.size()
+          ? space.check(*changed)
+          : Expected<void>(bad_input("does not have one value for each parameter"));
   if (checked) return changed;
   const Error& error = checked.error();
   return bad_input("the repair made (" + show(space, *changed) + ") of (" + show(space, sampled) +

@@ -67,7 +67,7 @@ Expected<bool> Schedule::shrink_to(std::int64_t remaining) {
   bool changed = false;
   for (; minimum_budget() > remaining; changed = true) {
     if (iterations_ == 1) {
-      return bad_input("the time that is left is good for about " + std::to_string(remaining) +
+      return bad_input("the remaining time is enough for about " + std::to_string(remaining) +
                            " experiments, and a single iteration needs at least " +
                            std::to_string(minimum_budget()) + ": give more time",
                        "max_time");
@@ -85,7 +85,7 @@ std::string Schedule::advice_for_first_race(std::int64_t remaining) const {
   const std::int64_t most = remaining / (mu_ + pairs_between_tests_);
   if (wanted <= most) return {};
   return " (nb_configurations is " + std::to_string(wanted) + ", and " + std::to_string(remaining) +
-         " experiments are good for " + std::to_string(most) +
+         " experiments allow " + std::to_string(most) +
          "): give a larger budget, or ask for fewer configurations";
 }
 

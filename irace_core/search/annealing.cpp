@@ -374,7 +374,8 @@ std::int64_t walked(const AnnealingOptions& options, const SearchPoint& point) {
 std::vector<SearchFault> AnnealingOptions::faults() const {
   std::vector<SearchFault> faults;
   if (moved > window)
-    faults.push_back({{"moved"}, "`moved` is at most `window`: a window moves on by parts of it"});
+    faults.push_back(
+        {{"moved"}, "`moved` must be at most `window`: a window moves on by parts of it"});
   // The published schedule has its own temperatures. The default values are allowed here, since
   // they are in the text that stores contain.
   const AnnealingOptions usual;
@@ -390,8 +391,8 @@ std::vector<SearchFault> AnnealingOptions::faults() const {
   if (start_temperature > 0 && end_temperature > start_temperature) {
     faults.push_back({{"end_temperature", "start_temperature"},
                       "`end_temperature` (" + number_text(end_temperature) +
-                          ") is at most `start_temperature` (" + number_text(start_temperature) +
-                          "): annealing cools"});
+                          ") must be at most `start_temperature` (" +
+                          number_text(start_temperature) + "): annealing cools"});
   }
   return faults;
 }

@@ -160,8 +160,8 @@ namespace swarmsmith {
 std::vector<SearchFault> EvolutionOptions::faults() const {
   if (elites <= parents) return {};
   return {{{"elites", "parents"},
-           "`elites` (" + number_text(elites) + ") is at most `parents` (" + number_text(parents) +
-               "): who goes on unchanged has children, too"}};
+           "`elites` (" + number_text(elites) + ") must be at most `parents` (" +
+               number_text(parents) + "): each elite is also a parent"}};
 }
 
 Expected<std::unique_ptr<search::Strategy>> EvolutionOptions::start(search::Start from) const {

@@ -165,8 +165,8 @@ Unexpected not_readable(const sqlite::Connection& connection, int code,
   }
   if (code == SQLITE_AUTH) {
     return bad_input(
-        "its views are not those of its schema; `swarmsmith backup` makes a copy with "
-        "ours",
+        "its views are not those of its schema; `swarmsmith backup` makes a copy with the right "
+        "ones",
         file);
   }
   return bad_input(sqlite3_errmsg(connection.handle()), file);

@@ -785,7 +785,7 @@ configuration,step,on_path,changed,pair,instance,seed,cost
         self.assertIn("# Step 1: x: 90 -> 30\n", done.stdout)
         self.assertTrue((self.folder / "irace-ablation-x1-from-first-to-last.db").exists())
         self.assertIn("irace-ablation-from1-to-last.db", self.irace("ablation", "-S", "1", "-T", "last.txt").stderr)
-        self.assertIn("has 2 configurations, and --ablation-target wants one", self.irace("ablation", "-T", "two.txt", code=1).stderr)
+        self.assertIn("has 2 configurations, and --ablation-target takes one", self.irace("ablation", "-T", "two.txt", code=1).stderr)
         self.assertIn("a file with one", self.irace("ablation", "-T", "none.txt", code=1).stderr)
         for words, advice in ((("-o", "log.Rdata"), "--ablation-csv"), (("--plot", "x.pdf"), "--ablation-csv"), (("-P", "x"), "leave it out")):
             self.assertIn(advice, self.irace("ablation", *words, code=1).stderr)

@@ -122,8 +122,8 @@ class Words(ProgramTest):
 
     def test_experiment_files_are_of_machines_alone(self):
         store = self.store()
-        self.refused("the control software is a network, and .argos files of RVRs are of state machines "
-                     "alone", "export", store, "--design", "d3", "--format", "argos")
+        self.refused("the control software is a network, and .argos files of RVRs can hold only state "
+                     "machines", "export", store, "--design", "d3", "--format", "argos")
         done = ended_well(call("export", store, "--format", "argos", "-o", self.folder / "experiments"))
         self.assertIn("2 of 5 are left out: .argos files can hold state machines, and for e-pucks trees", done.stderr)
         written = sorted(path.name[:2] for path in (self.folder / "experiments").iterdir())

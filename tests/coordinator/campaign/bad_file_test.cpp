@@ -187,7 +187,7 @@ const Mistake kMistakes[] = {
      "in/x.toml:9:11: `capping` needs a bound_max above 0"},
     {"TimeOfTheSimulator",
      {.race = "max_time = 2000\n"},
-     "in/x.toml:8:12: `max_time` needs a target that says how long its runs took"},
+     "in/x.toml:8:12: `max_time` needs a target that reports how long its runs took"},
     {"TwoBudgets",
      {.race = "max_experiments = 2000\nmax_time = 10\n",
       .rest = "[simulator]\nkind = \"command\"\ncommand = [\"./r\"]\n"},
@@ -340,8 +340,8 @@ TEST(BadCampaign, AMissionFileIsToldToBeOne) {
   ASSERT_FALSE(campaign);
   ASSERT_EQ(campaign.error().size(), 1U);
   EXPECT_THAT(to_string(campaign.error().front()),
-              HasSubstr("this is a mission, not a campaign: a campaign file names it, "
-                        "[[mission]] with preset = "));
+              HasSubstr("this is a mission, not a campaign: a campaign file names it ([[mission]] "
+                        "with preset = "));
 }
 
 }  // namespace

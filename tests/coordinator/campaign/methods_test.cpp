@@ -126,7 +126,7 @@ TEST(Methods, SaysWhatDoesNotFitTogether) {
   EXPECT_THAT(complaint_about("search = \"cmaes\"\n"), HasSubstr("cma-es"));
   EXPECT_THAT(complaint_about("architecture = \"net\"\n"), HasSubstr("network"));
   EXPECT_THAT(complaint_about("method = \"maple\"\nsearch = \"random\"\n"),
-              HasSubstr("says architecture and search already: tree and irace"));
+              HasSubstr("sets architecture and search already: tree and irace"));
   EXPECT_THAT(
       complaint_about("[method.evolution]\npopulation = 10\n"),
       HasSubstr("[method.evolution] is of the search evolution, and this method's search is "
