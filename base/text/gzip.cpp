@@ -32,7 +32,7 @@ std::string gzip(std::string_view bytes, int level) {
   const int ended = deflate(&stream, Z_FINISH);
   packed.resize(stream.total_out);
   deflateEnd(&stream);
-  SWARMSMITH_ASSERT(ended == Z_STREAM_END, "zlib said how much room it needs");
+  SWARMSMITH_ASSERT(ended == Z_STREAM_END, "zlib needs no more room than it said");
   return packed;
 }
 

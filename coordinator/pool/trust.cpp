@@ -202,7 +202,7 @@ void Trust::audit(const TaskRecord& record, const WorkerEntry& entry, const Resu
 void Trust::update_room(Principal& principal) {
   for (const WorkerNumber number : principal.workers) {
     WorkerEntry* entry = workers_->of_number(number);
-    SWARMSMITH_ASSERT(entry != nullptr, "a worker that is forgotten leaves its principal");
+    SWARMSMITH_ASSERT(entry != nullptr, "a removed worker is removed from its principal, too");
     set_credit(*entry, entry->credit);
   }
 }
@@ -430,7 +430,7 @@ std::string sentence_of_quarantine(const Principal& principal, const Principal::
 }
 
 void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
-  SWARMSMITH_ASSERT(!entry.quarantined, "nothing is taken from a worker in quarantine");
+  SWARMSMITH_ASSERT(!entry.quarantined, "a worker in quarantine gives no results");
   const std::uint32_t campaign = record.task.campaign;
   ++entry.done;
   audit(record, entry, result);

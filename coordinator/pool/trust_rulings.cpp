@@ -269,11 +269,11 @@ void Trust::let_go(const Said& said) {
   if (principal == nullptr || said.taken) return;
   if (said.on_trial) {
     Principal::Standing& standing = principal->standing(said.worker);
-    SWARMSMITH_ASSERT(standing.on_trial > 0, "a result on trial was counted");
+    SWARMSMITH_ASSERT(standing.on_trial > 0, "every result on trial was counted");
     --standing.on_trial;
     return;
   }
-  SWARMSMITH_ASSERT(principal->claims > 0, "a claim before the referee was counted");
+  SWARMSMITH_ASSERT(principal->claims > 0, "every claim before the referee was counted");
   if (principal->claims-- == Principal::kMostClaims) update_room(*principal);
 }
 

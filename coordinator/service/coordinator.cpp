@@ -549,7 +549,8 @@ void Coordinator::append(std::uint32_t index) {
 
 void Coordinator::on_appended(std::uint32_t index, std::uint64_t ticket) {
   Campaign& campaign = campaigns_[index];
-  SWARMSMITH_ASSERT(!campaign.unappended.empty(), "a ticket belongs to rows that were given out");
+  SWARMSMITH_ASSERT(!campaign.unappended.empty(),
+                    "a ticket belongs to rows that were sent to the store");
   SWARMSMITH_ASSERT(campaign.appended.empty() || campaign.appended.back().ticket < ticket,
                     "tickets count up");
   campaign.appended.push_back(std::move(campaign.unappended.front()));

@@ -108,7 +108,7 @@ Expected<std::vector<std::int64_t>> IteratedRace::State::later_contestants(
 
 Expected<std::vector<Candidate>> IteratedRace::State::sample_new(std::int64_t count, Rng& rng) {
   constexpr int kMostRounds = 100;
-  SWARMSMITH_ASSERT(!elites.empty(), "a race that leaves none is the last one");
+  SWARMSMITH_ASSERT(!elites.empty(), "a further race needs elites");
   std::vector<Candidate> sampled;
   for (int round = 0; round < kMostRounds; ++round) {
     const std::int64_t missing = count - static_cast<std::int64_t>(sampled.size());

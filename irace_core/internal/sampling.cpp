@@ -40,7 +40,8 @@ bool is_whole(const Domain& domain) {
 
 double to_domain(const ParameterSpace& space, std::size_t parameter, const Interval& domain,
                  double drawn) {
-  SWARMSMITH_ASSERT(domain.lower <= domain.upper, "an empty domain was an error before");
+  SWARMSMITH_ASSERT(domain.lower <= domain.upper,
+                    "an empty domain is an error that was found earlier");
   if (is_whole(space[parameter].domain)) {
     return std::clamp(std::floor(drawn), domain.lower, domain.upper);
   }
