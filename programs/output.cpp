@@ -122,7 +122,7 @@ Expected<double> checked_time(double time, const std::string& program, const Tar
   if (!std::isfinite(time) || time <= 0) {
     return bad_input("the time that the " + program + " reports, " +
                      (std::isfinite(time) ? plain_number(time) : std::string("infinite")) +
-                     ", has to be finite and above 0");
+                     ", must be finite and above 0");
   }
   return std::max(time, target.min_measurable_time);
 }

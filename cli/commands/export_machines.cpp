@@ -80,7 +80,7 @@ Expected<World> world_of(StoreReader& store, DesignId design, const std::string&
       campaign->missions, [&](const CampaignMission& known) { return known.mission.name == name; });
   if (found != campaign->missions.end()) return World{found->mission, campaign->profile};
   return unexpected(ErrorKind::NotFound,
-                    "the store's campaign does not say what the mission " + name + " is");
+                    "the store's campaign does not describe the mission " + name + " is");
 }
 
 Expected<std::string> experiment_of(StoreReader& store, const MachineRecord& candidate,

@@ -45,7 +45,7 @@ Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMach
   if (name.empty()) {
     return bad_input("the machine's flavour is unknown; add --flavour with one of " +
                      joined(flavour_names()) +
-                     ", or a file; files that `swarmsmith export` writes say it");
+                     ", or a file; files that `swarmsmith export` writes name it");
   }
   const bool is_other = name != named.flavour || own != named.own_flavour;
   if (!named.candidate && !named.flavour.empty() && is_other) {

@@ -74,7 +74,7 @@ void warn_about_low_walls(const Mission& mission, std::vector<std::string>& warn
   if (sensors_m <= walls_m) return;
   warnings.push_back("mission " + mission.name + ": the robot's proximity sensors are " +
                      json_number(sensors_m) + " m high, its walls " + json_number(walls_m) +
-                     " m; simulated rays meet walls of any height");
+                     " m; simulated rays hit walls of any height");
 }
 
 /// The modules of a method that use neighbours; a network always reads them.

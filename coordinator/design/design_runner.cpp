@@ -126,7 +126,7 @@ Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>
       return bad_input(
           fmt::format(
               "{} more experiments are too few {}; at least {} are needed", command.budget,
-              kind_of(plan_.search) == SearchKind::Irace ? "for another iteration" : "to go on",
+              kind_of(plan_.search) == SearchKind::Irace ? "for another iteration" : "to continue",
               *least),
           name);
     }

@@ -101,7 +101,7 @@ constexpr std::string_view kInstances =
 )";
 
 constexpr std::string_view kConfigurations =
-    R"(# Configurations to begin with, for instance the defaults: the names of the parameters, then one
+    R"(# Configurations to start with, for instance the defaults: the names of the parameters, then one
 # configuration per line. NA stands for a parameter whose condition does not hold.
 algorithm  strength  swaps  restart
 climb      1.00      NA     often

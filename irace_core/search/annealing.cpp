@@ -354,7 +354,7 @@ Neighbourhood one_parameter_neighbourhood(const ParameterSpace& space, Configura
       if (!made) return made;
       if (*made != from && !space.is_forbidden(*made)) return made;
     }
-    return bad_input("no configuration beside the incumbent is allowed");
+    return bad_input("no configuration besides the incumbent is allowed");
   };
   return {std::move(start), perturb};
 }
@@ -383,7 +383,7 @@ std::vector<SearchFault> AnnealingOptions::faults() const {
     if (cooling != Cooling::Published || value == usually) return;
     faults.push_back({{key},
                       "`" + std::string(key) +
-                          "` is of geometric cooling; the published one begins at 125 score "
+                          "` is for geometric cooling; the published one begins at 125 score "
                           "units, and again whenever it is below 0.00125"});
   };
   refuse("start_temperature", start_temperature, usual.start_temperature);

@@ -101,7 +101,7 @@ TEST(CampaignWarnings, NameWallsThatAreLowerThanTheRaysThatMeetThem) {
   mission.robot.proximity.height_m = 0.1;
   EXPECT_THAT(warnings_about(campaign),
               ElementsAre("mission aggregation: the robot's proximity sensors are 0.1 m high, its "
-                          "walls 0.032 m; simulated rays meet walls of any height"));
+                          "walls 0.032 m; simulated rays hit walls of any height"));
 }
 
 TEST(CampaignWarnings, NameModulesThatLookForNeighboursOfARobotThatSeesNone) {

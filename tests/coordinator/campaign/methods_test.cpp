@@ -222,7 +222,7 @@ TEST(Methods, RefuseWhatDecidesNothing) {
               HasSubstr("`turn_clock` is for machines and trees"));
   EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\ncooling = \"published\"\n"
                               "start_temperature = 2\n"),
-              HasSubstr("`start_temperature` is of geometric cooling; the published one begins at "
+              HasSubstr("`start_temperature` is for geometric cooling; the published one begins at "
                         "125 score units"));
   EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\ncooling = \"published\"\n"
                               "end_temperature = 0.5\n"),
