@@ -206,9 +206,9 @@ TEST(Methods, SayAFaultOnceAndWhatWasMeant) {
     return complaints_of(parse_campaign(file_of(method).text(), "x.toml"));
   };
   EXPECT_THAT(complaints("method = \"evostick\"\narchitecture = \"machine\"\n"),
-              ElementsAre(HasSubstr("says architecture and search already")));
+              ElementsAre(HasSubstr("sets architecture and search already")));
   EXPECT_THAT(complaints("method = \"maple\"\nsearch = \"evolution\"\n"),
-              ElementsAre(HasSubstr("says architecture and search already")));
+              ElementsAre(HasSubstr("sets architecture and search already")));
   EXPECT_THAT(complaints("search = \"frace\"\n"),
               ElementsAre(HasSubstr("did you mean \"f-race\"?")));
   EXPECT_THAT(complaints("search = \"f-race\"\n[method.f_race]\nconfigurations = 30\n"),
