@@ -196,7 +196,7 @@ Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
   for (const auto& [row, name] : addition.designs) {
     for (const std::string& each : {row.mission, row.method, name}) {
       if (std::ssize(each) <= kLongestName) continue;
-      return bad_input(fmt::format("a name of design {} has {} characters; {} is the most",
+      return bad_input(fmt::format("a name of design {} has {} characters; the limit is {}",
                                    to_string(row.id), each.size(), kLongestName));
     }
     if (row.id.value != ++designs) {

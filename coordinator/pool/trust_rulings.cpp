@@ -33,7 +33,7 @@ std::string text_of(const Said& said) {
 std::string text_beside(const Said& said, const Ruling& ruling) {
   const bool is_same = said.what == Said::What::Score && ruling.kind == Ruling::Kind::Score &&
                        said.measured.score == ruling.measured.score;
-  return text_of(ruling) + (is_same ? ", with another end of the run" : "");
+  return text_of(ruling) + (is_same ? ", with another final state" : "");
 }
 
 }  // namespace

@@ -218,8 +218,7 @@ Expected<void> check_lengths(const Connection& connection, const std::filesystem
         fmt::format("SELECT max(length(CAST({} AS BLOB))) FROM {}", limit.column, limit.table));
     if (longest <= limit.most) continue;
     return unexpected(ErrorKind::Corrupt,
-                      fmt::format("a {} in the store's table {} has {} bytes; a store has {} at "
-                                  "most",
+                      fmt::format("a {} in the store's table {} has {} bytes; the limit is {}",
                                   limit.column, limit.table, longest, limit.most),
                       path.string());
   }

@@ -151,8 +151,9 @@ Expected<Vector> substitute(const Node& node, const Arguments& given, bool all) 
         text = std::regex_replace(text, std::regex(*pattern, flags), replacement_of(*replacement),
                                   first);
       } catch (const std::regex_error&) {
-        return wrong(node, "the pattern \"" + *pattern +
-                               "\" is not one that is read here; with fixed = TRUE it is a text");
+        return wrong(node,
+                     "the pattern \"" + *pattern +
+                         "\" is not supported here; with fixed = TRUE it is read as plain text");
       }
     }
     length += text.size();
