@@ -70,7 +70,8 @@ TEST(OutputPlaceTest, OneThatIsReadIsNotWritten) {
   write(folder / "a.csv", "a,b\n");
   EXPECT_EQ(refusal(folder / "a.csv", FileKind::Table), "");
   note_input(folder / "a.csv");
-  EXPECT_THAT(refusal(folder / "a.csv", FileKind::Table), HasSubstr("a.csv: is what this command"));
+  EXPECT_THAT(refusal(folder / "a.csv", FileKind::Table),
+              HasSubstr("a.csv: is an input of this command"));
   // By any name.
   fs::create_hard_link(folder / "a.csv", folder / "b.csv");
   fs::create_symlink("a.csv", folder / "c.csv");

@@ -129,7 +129,7 @@ TEST(Evaluate, TakesStartsFromATable) {
     onto_input.insert(onto_input.end(), {option, (folder / "starts.csv").string()});
     const Ran ran = run(onto_input);
     EXPECT_EQ(ran.code, 2);
-    EXPECT_THAT(ran.err, HasSubstr("starts.csv: is what this command reads")) << option;
+    EXPECT_THAT(ran.err, HasSubstr("starts.csv: is an input of this command")) << option;
   }
   write_file(folder / "starts.csv",
              "seed,robot,x,y,theta\n5,0,0.1,0.2,0\n5,1,0.1,0.3,1\n5,2,0.6,0.6,7\n"

@@ -543,7 +543,7 @@ class Variants(Irace):
         self.irace("--parallel", "3", code=1)
         self.write_runner("echo $cost $(( 1 + cost % 7 ))")
         done = self.irace("--parallel", "1")
-        self.assertIn("begun with --parallel 3", done.stderr)
+        self.assertIn("started with --parallel 3", done.stderr)
         self.assertEqual(self.best_lines(done.stdout), self.best_lines(whole.stdout))
         self.assertEqual(self.digest(), self.digest("whole.db"))
 

@@ -163,7 +163,7 @@ class Words(ProgramTest):
     def test_keys_of_another_search(self):
         done = self.check(method("evostick", "[method.cma-es]\npopulation = 10\n"))
         self.assertEqual(done.returncode, 2, done.stdout)
-        self.assertIn("[method.cma-es] is of the search cma-es", done.stderr)
+        self.assertIn("[method.cma-es] is for the search cma-es", done.stderr)
         done = self.check(method("evostick", "[method.evolution]\nwindow = 10\n"))
         self.assertEqual(done.returncode, 2, done.stdout)
         self.assertIn("window", done.stderr)

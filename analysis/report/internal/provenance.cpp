@@ -60,7 +60,7 @@ void write_faults(ReportDraft& draft) {
               {{"number", Show::Count},
                {"command"},
                {"design", Show::Design},
-               {"experiments more", Show::Count},
+               {"more experiments", Show::Count},
                {"acted at step", Show::Count},
                {"by"},
                {"at (UTC)"}},

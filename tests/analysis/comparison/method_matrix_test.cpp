@@ -109,7 +109,7 @@ TEST(MethodMatrix, SaysWhereValuesAreTooFewForOtherLetters) {
   const Comparison comparison = compare(scores, {.by = CompareBy::Method});
   EXPECT_THAT(
       matrix_notes(comparison),
-      ElementsAre("aggregation, grid: values are too few for 3 tests together: after the "
+      ElementsAre("aggregation, grid: too few values for 3 tests together: after the "
                   "correction even the clearest difference would have a p of 0.0857; a shared "
                   "letter means nothing there"));
   // All six pairs are corrected together there.

@@ -140,7 +140,7 @@ const Mistake kMistakes[] = {
      "in/x.toml:7:11: `flavour` cannot be \"watermellon\" (did you mean \"watermelon\"?)"},
     {"FlavourNotYet",
      {.method = "name = \"m\"\nflavour = \"vanilla\"\n"},
-     "in/x.toml:7:11: vanilla is a way to search, and no flavour"},
+     "in/x.toml:7:11: vanilla is a search, not a flavour"},
     {"UnknownTurnClock",
      {.method = "name = \"m\"\nturn_clock = \"second\"\n"},
      "in/x.toml:7:14: `turn_clock` cannot be \"second\" (did you mean \"seconds\"?)"},
@@ -206,7 +206,8 @@ const Mistake kMistakes[] = {
      "in/x.toml:9:1: kind = \"command\" needs `command`"},
     {"TwoCommands",
      {.rest = "[simulator]\nkind = \"command\"\ncommand = [\"python3\", \"r.py\"]\n"},
-     "in/x.toml:11:11: `command` must name one program; an interpreter before it is `launcher`"},
+     "in/x.toml:11:11: `command` must name one program; an interpreter before it goes into "
+     "`launcher`"},
     {"BatchWithoutEvaluator",
      {.rest = "[simulator]\nkind = \"command\"\ncommand = [\"./r\"]\nbatch_mode = \"slurm\"\n"},
      "in/x.toml:12:14: `batch_mode` needs an `evaluator`"},

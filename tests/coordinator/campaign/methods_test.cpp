@@ -129,7 +129,7 @@ TEST(Methods, SaysWhatDoesNotFitTogether) {
               HasSubstr("sets architecture and search already: tree and irace"));
   EXPECT_THAT(
       complaint_about("[method.evolution]\npopulation = 10\n"),
-      HasSubstr("[method.evolution] is of the search evolution, and this method's search is "
+      HasSubstr("[method.evolution] is for the search evolution, and this method's search is "
                 "irace"));
   EXPECT_THAT(complaint_about("method = \"evostick\"\n[method.evolution]\npopulatoin = 10\n"),
               HasSubstr("population"));
@@ -149,11 +149,11 @@ TEST(Methods, SaysWhatDoesNotFitTogether) {
   EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\nwindow = 2\nmoved = 3\n"),
               HasSubstr("at most `window`"));
   EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\nend_temperature = 2\n"),
-              HasSubstr("`end_temperature` (2) is at most `start_temperature` (1)"));
+              HasSubstr("`end_temperature` (2) must be at most `start_temperature` (1)"));
   EXPECT_EQ(complaint_about("method = \"icepop\"\n[method.annealing]\nstart_temperature = 0\n"),
             "read");
   EXPECT_THAT(complaint_about("method = \"evostick\"\n[method.evolution]\nparents = 0.1\n"),
-              HasSubstr("`elites` (0.2) is at most `parents` (0.1)"));
+              HasSubstr("`elites` (0.2) must be at most `parents` (0.1)"));
   EXPECT_THAT(
       complaint_about("method = \"random\"\n", "first_test = 3\n"),
       HasSubstr("`first_test` is an option of races, and no method of this campaign races"));
@@ -193,7 +193,7 @@ TEST(Methods, OfBaselinesAreNotSearchedFor) {
                 HasSubstr("`search` says how control software is searched for"));
     EXPECT_THAT(complaint_about(baseline + "[method.irace]\n"), HasSubstr("irace"));
     EXPECT_THAT(complaint_about(baseline + "[method.evolution]\nruns = 3\n"),
-                HasSubstr("[method.evolution] is of the search evolution"));
+                HasSubstr("[method.evolution] is for the search evolution"));
   }
   EXPECT_THAT(complaint_about(machine + "[method.network]\ninputs = \"rvr\"\n"),
               HasSubstr("`network` says what a race may try"));
@@ -226,7 +226,7 @@ TEST(Methods, RefuseWhatDecidesNothing) {
                         "125 score units"));
   EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\ncooling = \"published\"\n"
                               "end_temperature = 0.5\n"),
-              HasSubstr("`end_temperature` is of geometric cooling"));
+              HasSubstr("`end_temperature` is for geometric cooling"));
   EXPECT_EQ(complaint_about("method = \"icepop\"\n[method.annealing]\ncooling = \"published\"\n"),
             "read");
 }

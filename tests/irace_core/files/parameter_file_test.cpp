@@ -51,7 +51,7 @@ TEST(ParameterFile, MendsWhatIsADefectInR) {
                           "them"));
   EXPECT_THAT(values_of("(,x,)"), ElementsAre("x"));
   EXPECT_EQ(warnings_of("(,x,)").size(), 2U);
-  EXPECT_THAT(values_of("(\"x\"y, z)").front(), HasSubstr("behind the closing quote"));
+  EXPECT_THAT(values_of("(\"x\"y, z)").front(), HasSubstr("after the closing quote"));
   const auto file =
       value_of(read("a \"--a#1 \" c (x,y) | b == 'p#q' # comment\nb \"\" c (\"p#q\", r)\n"));
   EXPECT_EQ(file.space[0].switch_text, "--a#1 ");
