@@ -65,7 +65,7 @@ TEST(HostFile, ReportsEveryMistakeWithItsPlace) {
                             "coordinator=PATH (did you mean \"slots\"?)"),
                   HasSubstr("in/hosts:3:8: `slots` must be a number from 1 to 1024"),
                   HasSubstr("in/hosts:4:1: `node1` is given twice"),
-                  HasSubstr("in/hosts:5:1: a line begins"),
+                  HasSubstr("in/hosts:5:1: a line must begin"),
                   HasSubstr("in/hosts:6:7: `program` must be an absolute path on that host"),
                   HasSubstr("in/hosts:7:7: `slots` must be"), HasSubstr("in/hosts:7:17: `more`")));
 }
