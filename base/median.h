@@ -10,7 +10,7 @@ namespace swarmsmith {
 /// The median; for an even number of values, the larger of the two in the middle. At least one
 /// value.
 inline double upper_median(std::vector<double> values) {
-  SWARMSMITH_ASSERT(!values.empty(), "a median of nothing");
+  SWARMSMITH_ASSERT(!values.empty(), "a median needs a value");
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;

@@ -183,14 +183,15 @@ Expected<fs::path> output_place(const fs::path& file, FileKind kind) {
   const std::optional<Identity> there = identity_of(place);
   if (!there) return place;
   if (is_input(place)) {
-    return bad_input("is what this command reads, and would be lost; name another file to write",
-                     file.string());
+    return bad_input(
+        "is an input of this command, and would be overwritten; name another file to write",
+        file.string());
   }
   const std::string beginning = beginning_of(place);
   if (beginning.empty()) return place;
   const FileKind is = kind_of(beginning);
   if (is != kind) {
-    return bad_input("is there already and is " + std::string(name_of(is)) + ", not " +
+    return bad_input("already exists and is " + std::string(name_of(is)) + ", not " +
                          std::string(name_of(kind)) +
                          "; name another file to write, or remove this one first",
                      file.string());

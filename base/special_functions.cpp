@@ -134,7 +134,8 @@ double student_t_two_sided_tail(double t, double dof) {
 }
 
 double student_t_upper_quantile(double upper_tail, double dof) {
-  SWARMSMITH_ASSERT(upper_tail > 0 && upper_tail < 0.5 && dof >= 1, "a tail and a sample");
+  SWARMSMITH_ASSERT(upper_tail > 0 && upper_tail < 0.5 && dof >= 1,
+                    "the tail is below one half, with one degree of freedom or more");
   const double z = -normal_quantile(upper_tail);
   // If the expansion is exact to double precision, it is the result.
   if (dof >= 1000 && z < 5) return expanded_t_quantile(z, dof);

@@ -54,8 +54,8 @@ std::string megabytes(std::uint64_t bytes) {
 
 std::string sentence_of_own_fault(const std::exception& fault) {
   return std::string("internal error: ") + fault.what() +
-         "; this is a fault of the program, not of your input: please report it with the command "
-         "and its files";
+         "; this is a bug in the program, not in your input: please report it with the command and "
+         "its files";
 }
 
 std::string sentence_of_refused_memory() {
@@ -64,11 +64,11 @@ std::string sentence_of_refused_memory() {
                               megabytes(memory.left) + " are left for it";
   if (memory.left < kLittle) {
     return "there is not enough memory for this (" + numbers +
-           "); try it with a smaller budget, fewer seeds or fewer rows";
+           "); try a smaller budget, fewer seeds or fewer rows";
   }
   return "memory was refused (" + numbers +
-         "): a number in the command or in a file is far too large, or this is a fault of the "
-         "program: then please report it with the command and its files";
+         "): a number in the command or in a file is far too large, or this is a bug: then please "
+         "report it with the command and its files";
 }
 
 template <class... Types>

@@ -92,7 +92,7 @@ void Options::words(const std::string& name, std::vector<std::string>& values,
 void Options::limit(CLI::Option* option, const std::vector<std::string>& choices) {
   const auto check = [choices](const std::string& given) -> std::string {
     if (std::find(choices.begin(), choices.end(), given) != choices.end()) return {};
-    return "\"" + given + "\" is none of: " + joined(choices) + did_you_mean(given, choices);
+    return "\"" + given + "\" is not one of: " + joined(choices) + did_you_mean(given, choices);
   };
   describe(option, "WORD");
   choices_[option->get_single_name()] = choices;

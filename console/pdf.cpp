@@ -59,7 +59,7 @@ Unexpected not_made(const Format& format, const std::string& why) {
 /// The first line of a program's message, for use in a sentence.
 std::string first_line(const std::string& text) {
   const std::string line = text.substr(0, text.find('\n'));
-  return line.empty() ? "it does not say why" : line;
+  return line.empty() ? "it gives no reason" : line;
 }
 
 Expected<std::string> converted(const Format& format, std::span<const std::string> pages) {
@@ -67,7 +67,7 @@ Expected<std::string> converted(const Format& format, std::span<const std::strin
   if (!program) {
     return not_made(
         format,
-        "the program rsvg-convert, which makes it, is not there; install the Debian package "
+        "the program rsvg-convert, which makes it, is not installed; install the Debian package "
         "librsvg2-bin, or write an .svg");
   }
   // Without this fixed date, two PDFs of the same drawing would differ.

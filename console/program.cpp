@@ -86,7 +86,7 @@ ExitCode complain_about_extras(const CLI::App& app, const Program& program,
   const std::string help =
       "; see `" + std::string(program.name) + " " + std::string(command.name) + " --help`";
   if (!word.starts_with("-")) {
-    return fail(output, ExitCode::Usage, "`" + word + "` is one word too many" + help);
+    return fail(output, ExitCode::Usage, "unexpected word `" + word + "`" + help);
   }
   word = word.substr(0, word.find('='));
   return fail(output, ExitCode::Usage,

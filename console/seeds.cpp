@@ -38,7 +38,7 @@ Expected<std::vector<std::int64_t>> parse_seeds(std::string_view text) {
     const auto last = dash == std::string_view::npos ? first : parse_seed(part.substr(dash + 1));
     if (!first || !last || *last < *first) return wrong();
     if (static_cast<std::size_t>(*last - *first) + seeds.size() >= kMostSeeds) {
-      return bad_input("more than ten million seeds are too many", "--seeds");
+      return bad_input("these are more than ten million seeds; give fewer", "--seeds");
     }
     for (std::int64_t seed = *first; seed <= *last; ++seed)
       seeds.push_back(seed);
@@ -47,7 +47,7 @@ Expected<std::vector<std::int64_t>> parse_seeds(std::string_view text) {
   std::vector<std::int64_t> sorted = seeds;
   std::ranges::sort(sorted);
   if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-    return bad_input("seed " + std::to_string(*twice) + " is there twice", "--seeds");
+    return bad_input("seed " + std::to_string(*twice) + " occurs twice", "--seeds");
   return seeds;
 }
 

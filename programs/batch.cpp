@@ -138,15 +138,16 @@ Expected<void> wait_for_job(BatchMode mode, const std::string& job, milliseconds
     if (state == JobState::Ended) return {};
     silences = state == JobState::Unknown ? silences + 1 : 0;
     if (silences < kMostSilences) continue;
-    return unexpected(ErrorKind::Unavailable, commands.ask[0] + " does not say how job " + job +
-                                                  " is: " + printable(answer->errors.text, 500));
+    return unexpected(ErrorKind::Unavailable, commands.ask[0] +
+                                                  " does not report the state of job " + job +
+                                                  ": " + printable(answer->errors.text, 500));
   }
   // The caller does not wait for the job any more. This last call is not interrupted.
   const Interrupt none;
   const Expected<ProcessEnd> ended =
       run_process({.words = with_job(commands.end, job), .limit = kEndLimit}, none);
   return unexpected(ErrorKind::Unavailable,
-                    "interrupted; job " + job + (ended ? " was cancelled" : " may go on"));
+                    "interrupted; job " + job + (ended ? " was cancelled" : " may still run"));
 }
 
 }  // namespace swarmsmith

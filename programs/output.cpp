@@ -73,7 +73,7 @@ std::string wanted_of_runner(const Target& target) {
 Unexpected wrong_count(const std::string& program, std::string_view output, bool too_many,
                        const std::string& wanted) {
   const std::string found = output.empty() ? "nothing" : too_many ? "more" : "less";
-  return bad_input("the " + program + " printed " + found + " than it should: it has to print " +
+  return bad_input("the " + program + " printed " + found + " than it should: it must print " +
                    wanted);
 }
 
@@ -90,14 +90,13 @@ Expected<Reading> parse_numbers(std::string_view output, const Target& target) {
   const std::size_t least = (has_cost ? 1U : 0U) + (target.prints_time ? 1U : 0U);
   const auto tokens = tokens_of(output, most);
   if (tokens.empty() && least > 0) {
-    return bad_input("the targetRunner printed nothing: it has to print " +
-                     wanted_of_runner(target));
+    return bad_input("the targetRunner printed nothing: it must print " + wanted_of_runner(target));
   }
   // Text that is not a number is a more useful error than a wrong number of tokens.
   for (const std::string_view token : tokens) {
     if (!parse_number(token)) {
       return bad_input("the targetRunner printed text that is not a number, " + shown(token) +
-                       ": it has to print " + wanted_of_runner(target) + ", and nothing else");
+                       ": it must print " + wanted_of_runner(target) + ", and nothing else");
     }
   }
   if (tokens.size() > most || tokens.size() < least) {
@@ -123,7 +122,7 @@ Expected<double> checked_time(double time, const std::string& program, const Tar
   if (!std::isfinite(time) || time <= 0) {
     return bad_input("the time that the " + program + " reports, " +
                      (std::isfinite(time) ? plain_number(time) : std::string("infinite")) +
-                     ", has to be finite and above 0");
+                     ", must be finite and above 0");
   }
   return std::max(time, target.min_measurable_time);
 }
@@ -143,11 +142,11 @@ Expected<Reading> parse_evaluator_output(std::string_view output, const Target& 
   const std::size_t most = may_say_time ? 2 : 1;
   const auto tokens = tokens_of(output, most);
   if (tokens.empty())
-    return bad_input("the targetEvaluator printed nothing: it has to print " + wanted);
+    return bad_input("the targetEvaluator printed nothing: it must print " + wanted);
   for (const std::string_view token : tokens) {
     if (!parse_number(token)) {
       return bad_input("the targetEvaluator printed text that is not a number, " + shown(token) +
-                       ": it has to print " + wanted + ", and nothing else");
+                       ": it must print " + wanted + ", and nothing else");
     }
   }
   if (tokens.size() > most) return wrong_count(kProgram, output, true, wanted);

@@ -68,10 +68,9 @@ tl::expected<TargetRunner::Command, TargetFailure> TargetRunner::command(
   }
   Expected<Words> split = split_words(arguments);
   if (!split) {
-    return tl::unexpected(
-        failure(command, nullptr,
-                "the command line cannot be taken apart: " + split.error().message + " (" +
-                    split.error().where + " of the arguments)"));
+    return tl::unexpected(failure(command, nullptr,
+                                  "the command line cannot be parsed: " + split.error().message +
+                                      " (" + split.error().where + " of the arguments)"));
   }
   if (!split->needs_shell) {
     command.process.words = std::move(split->words);
@@ -134,7 +133,7 @@ tl::expected<TargetResult, TargetFailure> TargetRunner::run_once(const Command& 
   if (!target_.aclib && !end->output.complete()) {
     return tl::unexpected(failure(command, &*end,
                                   "the targetRunner printed " + std::to_string(end->output.size) +
-                                      " bytes to standard output, where a number or two belong"));
+                                      " bytes to standard output; expected one or two numbers"));
   }
   const Expected<Reading> reading = parse_runner_output(end->output.text, target_, bound);
   if (!reading) return tl::unexpected(failure(command, &*end, reading.error().message));

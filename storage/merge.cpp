@@ -106,8 +106,8 @@ Expected<void> check_new_runs(const Connection& connection, const fs::path& stor
   if (!twice.step()) return {};
   return unexpected(
       ErrorKind::Conflict,
-      fmt::format("its real run {} is {} of the stores before it; a real run is merged once: leave "
-                  "one of the stores out",
+      fmt::format("its real run {} is the same as {} of the stores before it; a real run is merged "
+                  "once: leave one of the stores out",
                   to_string(RealRunId{twice.integer(0)}), to_string(RealRunId{twice.integer(1)})),
       store.string());
 }
@@ -117,11 +117,10 @@ void take_profiles(Connection& connection, const Connection& other, const fs::pa
                    std::vector<std::string>& warnings) {
   for (const auto& [name, text] : read_kept_profiles(other)) {
     if (keep_profile(connection, name, text)) continue;
-    warnings.push_back(
-        fmt::format("{}: candidates were evaluated under a profile {} that is another one in the "
-                    "stores before it; tables and figures take their scores for scores of one "
-                    "profile",
-                    store.string(), name));
+    warnings.push_back(fmt::format(
+        "{}: candidates were evaluated under a profile {} that differs from the one in the stores "
+        "before it; tables and figures treat their scores as scores of one profile",
+        store.string(), name));
   }
 }
 

@@ -218,7 +218,7 @@ Expected<Recovery::Without> SqliteRecovery::drop_words_of(const std::string& key
   without.evaluations = run("DELETE FROM evaluation WHERE worker IN " + theirs +
                             " OR worker <> 0 AND worker NOT IN (SELECT id FROM worker)");
   const std::string reason =
-      fmt::format("`recover --without-key` took away the {} evaluations that its {} workers gave",
+      fmt::format("`recover --without-key` removed the {} evaluations that its {} workers gave",
                   without.evaluations, without.workers);
   // If the principal is only a key, it means the key at every address.
   run("UPDATE worker SET principal = ?1, state = 'quarantined' WHERE id IN " + theirs);
@@ -242,8 +242,8 @@ Expected<void> SqliteRecovery::put_designs(const StoredCampaign& campaign,
     if (same != designs.end()) continue;
     return unexpected(
         ErrorKind::Conflict,
-        fmt::format("a design {} of {} and {}, repetition {}, seed {} was found, which "
-                    "the campaign {} has not; name the campaign's own file",
+        fmt::format("a design {} of {} and {}, repetition {}, seed {} was found, which the "
+                    "campaign {} does not have; name the campaign's own file",
                     to_string(stored.id), stored.mission, stored.method, stored.repetition,
                     stored.seed, campaign.row.name));
   }
@@ -404,11 +404,12 @@ std::string SqliteRecovery::doubt() {
     Statement(connection_, "INSERT INTO event (severity, kind, text) VALUES (?, ?, ?)")
         .run(event.severity, event.kind, event.text);
     connection_.execute("UPDATE campaign SET state = 'distrusted'");
-    return "its rows are not those that were committed, and which ones cannot be told: " + tables;
+    return "its rows are not those that were committed, and it is unknown which ones changed: " +
+           tables;
   }
   const bool was_doubted = std::ranges::any_of(
       campaigns(), [](const StoredCampaign& campaign) { return campaign.state == "distrusted"; });
-  return was_doubted ? "the damaged store says so of itself (its events say why)" : "";
+  return was_doubted ? "the damaged store already said so (its events say why)" : "";
 }
 
 Expected<Recovery::End> SqliteRecovery::finish() {
@@ -483,8 +484,7 @@ Expected<std::unique_ptr<Recovery>> Recovery::begin(const fs::path& damaged, con
       return table.rows == 0 || table.name == "meta";
     });
     if (nothing) {
-      return unexpected(ErrorKind::Corrupt, "nothing of a store can be found in this file",
-                        damaged.string());
+      return unexpected(ErrorKind::Corrupt, "this file has nothing of a store", damaged.string());
     }
     return std::make_unique<SqliteRecovery>(std::move(*file), std::move(connection), found,
                                             !image->has_header());

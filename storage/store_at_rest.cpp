@@ -154,11 +154,10 @@ Expected<void> SqliteAtRest::rescore_real_run(RealRunId id, const RealRunRows& r
     const auto stored = stored_run(id);
     if (!stored) return Unexpected(stored.error());
     if (stored->key != rows.key || !same_sightings(*stored, rows)) {
-      return bad_input(
-          fmt::format("what is to be scored again has other sightings than {}: its videos are "
-                      "others, and make a run of their own",
-                      to_string(id)),
-          path_.string());
+      return bad_input(fmt::format("the run to score again has other sightings than {}: other "
+                                   "videos make a run of their own",
+                                   to_string(id)),
+                       path_.string());
     }
     if (auto known = check_candidate(rows.candidate); !known) return known;
     rewrite_real_run(writer_.connection, id, rows);
@@ -197,7 +196,7 @@ Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
   for (const auto& [row, name] : addition.designs) {
     for (const std::string& each : {row.mission, row.method, name}) {
       if (std::ssize(each) <= kLongestName) continue;
-      return bad_input(fmt::format("a name of design {} has {} characters; {} is the most",
+      return bad_input(fmt::format("a name of design {} has {} characters; the limit is {}",
                                    to_string(row.id), each.size(), kLongestName));
     }
     if (row.id.value != ++designs) {

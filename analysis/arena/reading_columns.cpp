@@ -46,7 +46,7 @@ Names neighbour_columns(int robots, const Robot&) {
 /// Those of this very cycle, which come last: a radio's list begins with packets that it remembers.
 void neighbour_values(const Readings& readings, Values& values) {
   const auto count = static_cast<std::size_t>(readings.neighbour_count);
-  SWARMSMITH_ASSERT(count <= readings.neighbours.size(), "the list has all that were counted");
+  SWARMSMITH_ASSERT(count <= readings.neighbours.size(), "the list holds every counted neighbour");
   values.push_back(readings.neighbour_count);
   for (const Neighbour& neighbour : std::span(readings.neighbours).last(count)) {
     values.push_back(neighbour.distance_m);

@@ -120,8 +120,8 @@ void note_runs(Comparison& comparison) {
         "methods that made them");
   } else if (several_runs) {
     comparison.notes.emplace_back(
-        "runs of one design are not independent of each other: these tests see more certainty than "
-        "there is");
+        "runs of one design are not independent of each other: these tests overstate the "
+        "certainty");
   }
 }
 
@@ -149,8 +149,8 @@ std::optional<Error> missing(const std::vector<DesignScore>& scores,
   };
   if (scores.empty()) {
     return error(
-        "no design is finished with scores of its winner; `swarmsmith ls designs` shows how far "
-        "they are, and the test instances of a mission, or `swarmsmith evaluate`, give scores",
+        "no finished design has scores of its winner; `swarmsmith ls designs` shows how far they "
+        "are. Scores come from test instances of a mission, or from `swarmsmith evaluate`",
         "");
   }
   const auto lacks = [&](std::string_view what, auto part,
@@ -170,7 +170,7 @@ std::optional<Error> missing(const std::vector<DesignScore>& scores,
     if (auto found = lacks("purpose", &DesignScore::purpose, purpose)) return found;
   }
   if (wanted(scores, options).scores.empty())
-    return error("no score has all of the mission, method, source and purpose asked for", "");
+    return error("no score matches the given mission, method, source and purpose", "");
   return std::nullopt;
 }
 
@@ -180,7 +180,7 @@ std::optional<std::string> hopeless(std::size_t tests, double least_p) {
   const double least = std::min(1.0, static_cast<double>(tests) * least_p);
   if (tests < 2 || least <= kTestLevel) return std::nullopt;
   return fmt::format(
-      "values are too few for {} tests together: after the correction even the clearest difference "
+      "too few values for {} tests together: after the correction even the clearest difference "
       "would have a p of {:.3g}",
       tests, least);
 }

@@ -207,15 +207,15 @@ std::vector<std::string> matrix_notes(const Comparison& comparison) {
     if (tests * family.least_p <= kTestLevel) continue;
     const std::string sentence =
         hopeless(family.tests, family.least_p)
-            .value_or(fmt::format("values are too few: even the clearest difference would have a p "
+            .value_or(fmt::format("too few values: even the clearest difference would have a p "
                                   "of {:.3g}",
                                   family.least_p));
     const bool is_only_source = families.begin()->first.first == families.rbegin()->first.first;
     missions[sentence].insert(is_only_source ? key.second : key.second + " in " + key.first);
   }
   for (const auto& [sentence, of] : missions) {
-    notes.push_back(fmt::format("{}: {}; that methods share a letter says nothing there",
-                                fmt::join(of, ", "), sentence));
+    notes.push_back(
+        fmt::format("{}: {}; a shared letter means nothing there", fmt::join(of, ", "), sentence));
   }
   return notes;
 }

@@ -132,7 +132,7 @@ Expected<std::string> with_font(std::string svg, std::string_view font) {
   });
   if (!is_name) {
     return bad_input(
-        "a font's name has letters, digits, blanks and - alone, as in \"Linux Libertine\"",
+        "a font's name consists of letters, digits, blanks and -, as in \"Linux Libertine\"",
         "--font");
   }
   const std::string fonts(kFigureFonts);

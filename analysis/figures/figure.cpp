@@ -43,14 +43,15 @@ std::optional<Error> unknown_name(const std::string& given, const char* option,
 
 std::span<const FigureKind> figure_kinds() {
   static constexpr std::array kKinds = {
-      FigureKind{"box", "Box plots with points of the winners' scores, a panel a mission",
+      FigureKind{"box", "Box plots with points of the winners' scores, one panel per mission",
                  box_figure, "mission method design by source purpose per"},
       FigureKind{"scores", "How often each score occurred, bars of groups side by side",
                  scores_figure, "mission method design by source purpose per"},
-      FigureKind{"gap", "What winners lose from their simulator to other sources, a line a design",
+      FigureKind{"gap",
+                 "What winners lose from their simulator to other sources, one line per design",
                  gap_figure, "mission method design"},
-      FigureKind{"training", "Winners' mean scores in their race beside those in their tests",
-                 training_figure, "mission method design"},
+      FigureKind{"training", "Winners' mean scores in the race and in the tests", training_figure,
+                 "mission method design"},
       FigureKind{"modules", "How often the winners have each module, as bars and numbers",
                  modules_figure, "mission method"},
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure,
@@ -64,14 +65,14 @@ std::span<const FigureKind> figure_kinds() {
                  "mission method design parameter"},
       FigureKind{"parallel", "Parameters of the elites among all candidates", parallel_figure,
                  "mission method design parameter"},
-      FigureKind{"importance", "How much of the candidates' scores goes with each parameter",
+      FigureKind{"importance", "How much of the scores' variance each parameter explains",
                  importance_figure, "mission method design"},
       FigureKind{
           "ranks",
           "Mean ranks of methods or sources, with intervals if Friedman's test finds a difference",
           ranks_figure, "mission method by source purpose"},
       FigureKind{"ablation",
-                 "Costs on the way from one configuration to another, of irace's ablation",
+                 "Costs on the way from one configuration to another (irace's ablation)",
                  ablation_figure, "design"},
   };
   return kKinds;

@@ -58,7 +58,7 @@ std::string draw(const ImportancePlot& plot) {
   area.height = kRow * static_cast<double>(plot.bars.size());
   const double below = area.bottom() + kHorizontalAxisRoom + 2;
   Svg svg(plot.width_mm, below + kLineHeight * static_cast<double>(caption.size()) + kMargin,
-          plot.title, "Bars: part of the variance of scores that goes with each parameter");
+          plot.title, "Bars: part of the variance of scores that each parameter explains");
   draw_heading(svg, plot.title, plot.details);
   const Axis x(rounded({0, most}, 5), area.left, area.right());
   draw_horizontal_axis(svg, area, x, "part of the variance of scores");
@@ -231,11 +231,11 @@ Expected<Figure> importance_figure(StoreReader& store, const FigureOptions& opti
   const std::map<CandidateId, double> effects = candidate_effects(*pairs);
   ImportancePlot plot{
       .title = title_of(*design),
-      .details = {fmt::format("What the scores of {} hang on, {} candidates",
+      .details = {fmt::format("What the scores of {} depend on, {} candidates",
                               to_string(design->design), effects.size())},
       .caption =
-          "Bar: part of the variance of the candidates' scores, freed of what their pairs "
-          "were like, that goes with the value of a parameter alone (eta squared; numbers in "
+          "Bar: part of the variance of the candidates' scores that the value of one parameter "
+          "explains, without the effect of the pairs (eta squared; numbers in "
           "fifths), among candidates that have it. Mark: what chance gives in one of 20 "
           "cases; pale: no more than that.",
       .bars = {},

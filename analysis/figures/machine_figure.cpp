@@ -42,12 +42,12 @@ Expected<std::vector<CandidateId>> chosen_candidates(StoreReader& store,
   for (const DesignRecord& design : *known)
     if (design.best) best.push_back(*design.best);
   if (!best.empty()) return best;
-  return unexpected(ErrorKind::NotFound,
-                    known->size() == 1 ? to_string(known->front().design) +
-                                             " has no best machine yet; its first iteration has "
-                                             "to end first"
-                                       : "no design has a best machine yet; the first iteration of "
-                                         "one has to end first");
+  return unexpected(
+      ErrorKind::NotFound,
+      known->size() == 1
+          ? to_string(known->front().design) +
+                " has no best machine yet; its first iteration must end first"
+          : "no design has a best machine yet; the first iteration of one must end first");
 }
 
 /// The first schema that stores the flavour of machines.
@@ -241,7 +241,7 @@ Expected<Figure> machine_figure(StoreReader& store, const FigureOptions& options
   if (options.iteration) return Unexpected(useless("--iteration"));
   if (!options.parameter.empty()) return Unexpected(useless("--parameter"));
   if (options.width_mm < kNarrowestMachine_mm) {
-    return bad_input(fmt::format("a machine needs a width of {} mm at least", kNarrowestMachine_mm),
+    return bad_input(fmt::format("a machine needs a width of at least {} mm", kNarrowestMachine_mm),
                      "--width");
   }
   const auto candidates = chosen_candidates(store, options);

@@ -65,13 +65,13 @@ class _Lines:
         line = sys.stdin.readline()
         with self.named():
             if not line:
-                raise Error(f"the input ended, and {wanted} was wanted: the run is not over")
+                raise Error(f"the input ended before {wanted}: the run is not over")
             try:
                 read = json.loads(line)
             except ValueError as error:
                 raise Error(f"this is not JSON: {error}") from None
             if not isinstance(read, dict):
-                raise Error(f"a JSON object with {wanted} is wanted, found {line.strip()}")
+                raise Error(f"expected a JSON object with {wanted}, found {line.strip()}")
             return read
 
     @contextlib.contextmanager
@@ -86,14 +86,14 @@ def _member(message, name, kind, where):
     if name not in message:
         raise Error(f"`{name}` is missing in {where}")
     if not isinstance(message[name], kind):
-        raise Error(f"`{name}` is {'an object' if kind is dict else 'a list'} in {where}, found {json.dumps(message[name])}")
+        raise Error(f"`{name}` must be {'an object' if kind is dict else 'a list'} in {where}, found {json.dumps(message[name])}")
     return message[name]
 
 
 def _domain(name, domain):
     """One parameter of the first line."""
     if not isinstance(domain, dict) or str(domain.get("type")) not in _TYPES:
-        raise SpaceError(f"{name}: an object with `type` is wanted, one of {', '.join(_TYPES)}, found {json.dumps(domain)}")
+        raise SpaceError(f"{name}: expected an object with `type`, one of {', '.join(_TYPES)}, found {json.dumps(domain)}")
     kind = _TYPES[domain["type"]]
     needed, others = (("values",), ("when",)) if kind in (Categorical, Ordinal) else (("lower", "upper"), ("log", "when"))
     for member in needed:
@@ -110,10 +110,10 @@ def _domain(name, domain):
 
 def _tell(tuner, told):
     if not isinstance(told, dict) or "id" not in told or "cost" not in told:
-        raise Error(f"`tell` is a list of objects with `id` and `cost`, found {json.dumps(told)}")
+        raise Error(f"`tell` must be a list of objects with `id` and `cost`, found {json.dumps(told)}")
     cost = math.inf if told["cost"] is None else told["cost"]
     if not isinstance(cost, (int, float)) or math.isnan(cost):
-        raise CostError(f"the cost of trial {told['id']} is {json.dumps(cost)}: a number is wanted, or null to drop its "
+        raise CostError(f"the cost of trial {told['id']} is {json.dumps(cost)}: expected a number, or null to drop its "
                         "configuration")
     tuner.tell(told["id"], cost, told.get("time"))
 

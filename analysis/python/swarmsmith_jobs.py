@@ -114,11 +114,11 @@ def tune(function, space, *, n_jobs=1, progress=None, **options):
     An exception of the function ends the run and is raised; with a store the same call goes on."""
     cores = len(os.sched_getaffinity(0))
     if not callable(function):
-        raise OptionError(f"function: a function that takes a trial is wanted, found {function!r}")
+        raise OptionError(f"function: expected a function that takes a trial, found {function!r}")
     if progress is not None and not isinstance(progress, bool) and not callable(progress):
-        raise OptionError(f"progress is True, False or a function, found {progress!r}")
+        raise OptionError(f"progress must be True, False or a function, found {progress!r}")
     if not isinstance(n_jobs, int) or isinstance(n_jobs, bool) or (n_jobs < 1 and n_jobs != -1):
-        raise OptionError(f"n_jobs is a number of processes, or -1 for one a core, found {n_jobs!r}")
+        raise OptionError(f"n_jobs must be a number of processes, or -1 for one per core, found {n_jobs!r}")
     jobs, teller = None, _Teller(progress)
     space = Space(space)
     if n_jobs != 1:
@@ -143,7 +143,7 @@ def tune(function, space, *, n_jobs=1, progress=None, **options):
 
 def _tell(tuner, number, answer):
     if isinstance(answer, tuple) and len(answer) != 2:
-        raise tuner._no_cost(number, "value", f"{answer!r}: a number is wanted, or a tuple of a number and a time")
+        raise tuner._no_cost(number, "value", f"{answer!r}: expected a number, or a tuple of a number and a time")
     tuner.tell(number, *(answer if isinstance(answer, tuple) else (answer,)))
 
 

@@ -9,5 +9,5 @@ with socket.socket(socket.AF_UNIX) as link:
     answer = b"".join(iter(lambda: link.recv(4096), b"")).decode()
 word, _, text = answer.partition(" ")
 if word != "cost":
-    sys.exit(text or "the Python process that tunes has ended before it told a cost")
+    sys.exit(text or "the Python process that tunes ended before it gave a cost")
 print(text)

@@ -33,7 +33,7 @@ def is_number(value):
 def sequence(name, value, of, kind):
     """A list of what may be a list. A text is none, since it would be split into letters."""
     if isinstance(value, (str, bytes, dict, set, frozenset)) or not hasattr(value, "__iter__"):
-        raise kind(f"{name}: a list of {of} is wanted, found {value!r}")
+        raise kind(f"{name}: expected a list of {of}, found {value!r}")
     return list(value)
 
 
@@ -44,7 +44,7 @@ def plain(value):
 
 def _condition(when):
     if when is not None and not isinstance(when, str):
-        raise SpaceError(f"when: a condition is a text, such as 'x > 0.5', found {when!r}")
+        raise SpaceError(f"when: a condition must be a text, such as 'x > 0.5', found {when!r}")
     return when
 
 
@@ -57,7 +57,7 @@ class _Choice:
         if not self.values:
             raise SpaceError("a choice needs a value")
         if len(set(self.texts)) != len(self.texts):
-            raise SpaceError(f"two of the values {self.texts} are written alike: give texts that differ")
+            raise SpaceError(f"two of the values {self.texts} have the same text: give texts that differ")
 
     def domain(self):
         return ", ".join(f'"{text}"' for text in self.texts)
@@ -67,7 +67,7 @@ class _Choice:
 
     def text(self, value):
         if plain(value) not in self.texts:
-            raise SpaceError(f"{value!r} is none of its values {self.values}")
+            raise SpaceError(f"{value!r} is not one of its values {self.values}")
         return f'"{plain(value)}"'
 
 
@@ -85,7 +85,7 @@ class _Number:
     def __init__(self, lower, upper, log=False, when=None):
         self.lower, self.upper, self.log, self.when = lower, upper, log, _condition(when)
         if not isinstance(log, bool):
-            raise SpaceError(f"log: True or False is wanted, found {log!r}")
+            raise SpaceError(f"log: expected True or False, found {log!r}")
         # A text is a bound that depends on other parameters, in R's words.
         for bound in (lower, upper):
             if not isinstance(bound, str):
@@ -162,7 +162,7 @@ class Space:
 
     def __init__(self, space):
         if not isinstance(space, dict) or not space:
-            raise SpaceError("a space is a dictionary of names and domains, with one at least")
+            raise SpaceError("a space must be a dictionary of names and domains, with at least one")
         self.domains, self.names = {}, {}
         for name, value in space.items():
             if not isinstance(name, str) or not name:
@@ -184,13 +184,13 @@ class Space:
         most, name = max(wanted, default=(0, ""))
         if most > 15:
             raise SpaceError(f"{name}: it needs {most} decimals, and irace has 15: tune its logarithm instead, "
-                             "as Real(-20, 0), and take 10 ** x")
+                             "such as Real(-20, 0), and take 10 ** x")
         return max(4, most)
 
     def expression(self, text):
         """R's words, in which `any name` may stand between backquotes."""
         if not isinstance(text, str):
-            raise SpaceError(f"a condition is a text, such as 'x > 0.5', found {text!r}")
+            raise SpaceError(f"a condition must be a text, such as 'x > 0.5', found {text!r}")
 
         def written(found):
             if found[1] not in self.written:
@@ -206,7 +206,7 @@ class Space:
 
     def configuration_line(self, configuration):
         if not isinstance(configuration, dict):
-            raise SpaceError(f"a configuration is a dictionary of names and values, found {configuration!r}")
+            raise SpaceError(f"a configuration must be a dictionary of names and values, found {configuration!r}")
         for name in configuration:
             if name not in self.domains:
                 raise SpaceError(f"'{name}' is not a parameter of the space{self._nearest(name)}")

@@ -26,7 +26,7 @@ def cannot_start(program, error):
 
 def path_of(name, path):
     if not isinstance(path, (str, os.PathLike)) or not os.fspath(path):
-        raise OptionError(f"{name}: the path of a store is wanted, found {path!r}")
+        raise OptionError(f"{name}: expected the path of a store, found {path!r}")
     return pathlib.Path(path)
 
 
@@ -69,7 +69,7 @@ class Store:
         values of figures, tables and tests. `purpose`: `test`, on the campaign's own seeds and profile, or `score`, under
         its further profiles or asked for later."""
         if purpose not in PURPOSES:
-            raise OptionError(f"purpose: {purpose!r} is not known here: it is one of {', '.join(PURPOSES)}. "
+            raise OptionError(f"purpose: {purpose!r} is not known here; it must be one of {', '.join(PURPOSES)}. "
                               "Other evaluations are rows of v_evaluations")
         return self.query(
             "SELECT mission, method, design, candidate, source, avg(score) AS mean, count(*) AS runs "
@@ -78,7 +78,7 @@ class Store:
     def machine(self, candidate):
         """The text of the grammar of a candidate: 812, or "c812"."""
         if isinstance(candidate, bool) or not re.fullmatch(r"c?[0-9]{1,18}", str(candidate)):
-            raise OptionError(f'{candidate!r} is not a candidate: its number is wanted, as 812 or "c812"')
+            raise OptionError(f'{candidate!r} is not a candidate: give its number, such as 812 or "c812"')
         number = int(str(candidate).removeprefix("c"))
         rows = self.query("SELECT fsm_config FROM v_candidates WHERE candidate = ?", number)
         if not rows:

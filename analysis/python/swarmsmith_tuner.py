@@ -62,12 +62,12 @@ def _check_option(name, value):
     if name.startswith(("test_instances", "train_instances", "target_", "log_file", "exec_dir")) or name.endswith("_file"):
         raise OptionError(f"{name} has no effect here: a function, its instances and a store are given")
     if not isinstance(value, (bool, str)) and not (is_number(value) and abs(value) <= LARGEST):
-        raise OptionError(f"{name}: a number, a text, True or False is wanted, found {value!r}")
+        raise OptionError(f"{name}: expected a number, a text, True or False, found {value!r}")
 
 
 def _check_whole(name, value, least):
     if not is_number(value) or value != value // 1 or value < least:
-        raise OptionError(f"{name}: a whole number of at least {least} is wanted, found {value!r}")
+        raise OptionError(f"{name}: expected a whole number of at least {least}, found {value!r}")
 
 
 class Tuner:
@@ -90,7 +90,7 @@ class Tuner:
                  direction="minimize", program=None, **options):
         self._space = space if isinstance(space, Space) else Space(space)
         if direction not in ("minimize", "maximize"):
-            raise OptionError(f'direction is "minimize" or "maximize", found {direction!r}')
+            raise OptionError(f'direction must be "minimize" or "maximize", found {direction!r}')
         self._sign = -1 if direction == "maximize" else 1
         options = {name: value for name, value in options.items() if value is not None}
         for name, value in options.items():
@@ -221,15 +221,15 @@ class Tuner:
     def tell(self, id, value, time=None):
         """The value of a trial, infinite for a configuration that is to be dropped, and the time it took."""
         if value is None or isinstance(value, (str, bytes)):
-            raise self._no_cost(id, "value", f"{value!r}: a number is wanted, or math.inf to drop its configuration")
+            raise self._no_cost(id, "value", f"{value!r}: expected a number, or math.inf to drop its configuration")
         try:
             value = float(value)
         except (TypeError, ValueError, OverflowError):
-            raise self._no_cost(id, "value", f"of type {type(value).__name__}: a number is wanted") from None
+            raise self._no_cost(id, "value", f"of type {type(value).__name__}: expected a number") from None
         if math.isnan(value):
             raise self._no_cost(id, "value", "not a number; tell math.inf to drop its configuration")
         if time is not None and not (is_number(time) and 0 < time <= LARGEST):
-            raise self._no_cost(id, "time", f"{time!r}: a finite number above 0 is wanted, or None")
+            raise self._no_cost(id, "time", f"{time!r}: expected a finite number above 0, or None")
         text = "Inf" if math.isinf(value) else repr(self._sign * value)
         self._answer(id, "cost " + text + ("" if time is None else f" {float(time)!r}"))
         self._told += 1
@@ -250,7 +250,7 @@ class Tuner:
 
     def _answer(self, id, text):
         if not self._is_open(id):
-            raise Error(f"trial {id} was not asked, or was told already")
+            raise Error(f"trial {id} was not asked, or was already told")
         with self._open.pop(id) as link:
             try:
                 link.sendall(text.encode())
@@ -322,7 +322,7 @@ class Tuner:
             if number is not None:
                 return Error(f"trial {number} failed: {self._failed.get(number, found[1])}; its configuration is "
                              f"{self._configurations[number]}" +
-                             (f". The same call goes on from {self.store}" if self.store else ""))
+                             (f". The same call continues from {self.store}" if self.store else ""))
         if not self.store:
             said = re.sub(r"(?m)^.*everything so far is in .*\n?", "", said)
         for line in said.strip().splitlines():

@@ -99,8 +99,8 @@ std::optional<std::string> seeds_differ(const std::vector<DesignScore>& scores,
   }
   if (different == 0) return std::nullopt;
   return fmt::format(
-      "the seeds of {} and {} differ in {} of {} designs, so a part of the difference may be "
-      "theirs",
+      "the seeds of {} and {} differ in {} of {} designs, so part of the difference may come from "
+      "the seeds",
       first, second, different, paired);
 }
 

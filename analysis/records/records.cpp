@@ -118,10 +118,11 @@ Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const Recor
   const auto wrong = std::ranges::find_if(
       *scores, [](const DesignScore& score) { return !std::isfinite(score.score); });
   if (wrong == scores->end()) return scores;
-  return unexpected(ErrorKind::Corrupt,
-                    fmt::format("the score of {} on pair {} ({}) is not finite: the store was "
-                                "changed by something else",
-                                to_string(wrong->candidate), wrong->pair, wrong->purpose));
+  return unexpected(
+      ErrorKind::Corrupt,
+      fmt::format(
+          "the score of {} on pair {} ({}) is not finite: another program changed the store",
+          to_string(wrong->candidate), wrong->pair, wrong->purpose));
 }
 
 Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilter& filter) {

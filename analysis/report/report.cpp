@@ -57,7 +57,7 @@ std::string summary_of(const std::vector<DesignRecord>& designs) {
     repetitions.push_back(group.second);
   const bool is_one = *std::ranges::max_element(repetitions) == 1;
   std::string text = fmt::format(
-      "Asked: which machines do best on the {} {}? {} {} each by the {} {}",
+      "Question: which machines do best on the {} {}? {} {} each by the {} {}",
       plural(missions.size(), "mission"), fmt::join(missions, ", "), range_of(repetitions),
       plural(is_one ? 1 : 2, "design"), plural(methods.size(), "method"), fmt::join(methods, ", "));
   if (!budgets.empty()) text += fmt::format(", {} experiments a design", range_of(budgets));

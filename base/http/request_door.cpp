@@ -69,8 +69,9 @@ Expected<ListeningSocket> listen_for_requests(const std::string& host, int port)
     if (why == 0) why = errno;
   }
   if (why == EADDRINUSE) {
-    return unexpected(ErrorKind::Conflict,
-                      "another program listens on this port; name another one, or end that", where);
+    return unexpected(
+        ErrorKind::Conflict,
+        "another program listens on this port; choose another port, or end that program", where);
   }
   if (why == EADDRNOTAVAIL) return bad_input("this is not an address of this host", where);
   return unexpected(ErrorKind::Unavailable,

@@ -152,7 +152,7 @@ OrErrors<CsvTable> parse_csv(std::string_view text, const std::string& file) {
       table.columns = std::move(*fields);
       for (auto name = table.columns.begin(); name != table.columns.end(); ++name) {
         if (std::find(table.columns.begin(), name, *name) != name)
-          errors.push_back(at(file, line, "the column " + *name + " is there twice"));
+          errors.push_back(at(file, line, "the column " + *name + " occurs twice"));
       }
     } else if (fields->size() != table.columns.size()) {
       errors.push_back(at(file, line,
@@ -163,7 +163,8 @@ OrErrors<CsvTable> parse_csv(std::string_view text, const std::string& file) {
     }
   }
   if (table.columns.empty() && errors.empty())
-    errors.push_back({ErrorKind::BadInput, "the file is empty; a headline was wanted", file});
+    errors.push_back({ErrorKind::BadInput,
+                      "the file is empty; it must begin with a line of column names", file});
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   return table;
 }

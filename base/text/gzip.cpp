@@ -32,7 +32,7 @@ std::string gzip(std::string_view bytes, int level) {
   const int ended = deflate(&stream, Z_FINISH);
   packed.resize(stream.total_out);
   deflateEnd(&stream);
-  SWARMSMITH_ASSERT(ended == Z_STREAM_END, "zlib said how much room it needs");
+  SWARMSMITH_ASSERT(ended == Z_STREAM_END, "zlib needs no more room than it said");
   return packed;
 }
 
@@ -54,7 +54,7 @@ Expected<std::string> gunzip(std::string_view packed, std::size_t most) {
   inflateEnd(&stream);
   if (state == Z_STREAM_END && bytes.size() <= most) return bytes;
   return unexpected(ErrorKind::Corrupt, state == Z_STREAM_END || state == Z_OK
-                                            ? "more comes out of it than may be"
+                                            ? "unpacked, it is larger than the limit"
                                             : "this is not a whole gzip file");
 }
 

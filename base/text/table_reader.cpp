@@ -129,7 +129,7 @@ void TableReader::complain_foreign(std::string_view key, Error error) {
 /// Complains about a value of another type than the key needs.
 void TableReader::complain_type(const Node& node, std::string_view key, std::string_view wanted) {
   complaints_->add(node.place, "`" + std::string(key) + "` must be " + std::string(wanted) +
-                                   ", this is " + std::string(type_name(node)));
+                                   ", not " + std::string(type_name(node)));
 }
 
 const Node* TableReader::take(std::string_view key) {
@@ -167,7 +167,7 @@ std::optional<std::int64_t> TableReader::integer(std::string_view key,
   }
   if (within(*value, limits)) return *value;
   const Limits<double> shown{static_cast<double>(limits.least), static_cast<double>(limits.most)};
-  complain(key, "`" + std::string(key) + "` must be " + range_text(shown) + ", this is " +
+  complain(key, "`" + std::string(key) + "` must be " + range_text(shown) + ", not " +
                     std::to_string(*value));
   return std::nullopt;
 }
@@ -181,7 +181,7 @@ std::optional<double> TableReader::number(std::string_view key, Limits<double> l
     return std::nullopt;
   }
   if (within(*value, limits)) return value;
-  complain(key, "`" + std::string(key) + "` must be " + range_text(limits) + ", this is " +
+  complain(key, "`" + std::string(key) + "` must be " + range_text(limits) + ", not " +
                     number_text(*value));
   return std::nullopt;
 }
@@ -201,7 +201,7 @@ std::optional<std::string> TableReader::choice(std::string_view key,
   if (!value || std::ranges::find(choices, *value) != choices.end()) return value;
   const std::string found = std::string(key) + " = \"" + *value + "\"";
   if (std::ranges::find(not_yet, *value) != not_yet.end()) {
-    complain(key, found + " is not there yet; this version has: " + joined(choices));
+    complain(key, found + " is not supported yet; this version has: " + joined(choices));
   } else {
     complain(key, "`" + std::string(key) + "` cannot be \"" + *value + "\"" +
                       did_you_mean(*value, choices) + "; it is one of: " + joined(choices));
@@ -215,7 +215,7 @@ std::optional<double> TableReader::seconds(std::string_view key, Limits<double> 
   const auto found = parse_seconds(*value);
   if (!found) {
     complain(key, "`" + std::string(key) + "` must be a time with its unit (ms, s, min, h), such " +
-                      "as \"30 s\"; this is \"" + *value + "\"");
+                      "as \"30 s\", not \"" + *value + "\"");
     return std::nullopt;
   }
   if (within(*found, limits)) return found;
@@ -316,7 +316,7 @@ std::optional<std::vector<std::vector<double>>> TableReader::number_rows(std::st
       const auto value = as_number(cell);
       if (!value) return wrong(cell, "");
       if (!within(*value, limits)) {
-        return wrong(cell, "; each " + range_text(limits) + ", this is " + number_text(*value));
+        return wrong(cell, "; each " + range_text(limits) + ", not " + number_text(*value));
       }
       rows.back().push_back(*value);
     }
@@ -329,7 +329,7 @@ void TableReader::finish(std::span<const std::string> not_yet) {
   for (const Table::Entry& entry : entries_of(*table_).entries) {
     if (asked_.contains(entry.key)) continue;
     if (std::ranges::find(not_yet, entry.key) != not_yet.end()) {
-      complaints_->add(entry.place, "`" + entry.key + "` in " + name() + " is not there yet");
+      complaints_->add(entry.place, "`" + entry.key + "` in " + name() + " is not supported yet");
       continue;
     }
     std::string hint = did_you_mean(entry.key, known);
@@ -376,10 +376,9 @@ void read_format(TableReader& root) {
   constexpr auto kAny = std::numeric_limits<std::int64_t>::max();
   const auto format = root.integer("format", {-kAny - 1, kAny});
   if (!root.has("format")) {
-    root.complain("format", "the file begins with its format: format = 1");
+    root.complain("format", "the file must begin with its format: format = 1");
   } else if (format && *format < kFormat) {
-    root.complain("format",
-                  "this program reads format 1, this is format " + std::to_string(*format));
+    root.complain("format", "this program reads format 1, not format " + std::to_string(*format));
   } else if (format && *format != kFormat) {
     root.complain("format", "format " + std::to_string(*format) +
                                 " is newer than this program, which reads format 1");

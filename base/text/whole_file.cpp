@@ -49,7 +49,7 @@ Expected<std::string> read_whole_file(const fs::path& file) {
     return unexpected(ErrorKind::NotFound, "there is no such file", file.string());
   }
   if (fs::is_directory(status)) {
-    return bad_input("is a folder; a file is wanted", file.string());
+    return bad_input("is a folder; name a file", file.string());
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream.is_open()) return bad_input("cannot be read", file.string());

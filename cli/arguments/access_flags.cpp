@@ -21,7 +21,8 @@ Error with_hint(Error error, const KeyFolder& folder, bool named) {
 
 void log_faults(const std::vector<Error>& faults) {
   for (const Error& fault : faults) {
-    log_event(LogLevel::Error, "coordinator", "list of clients refused; the last one stays",
+    log_event(LogLevel::Error, "coordinator",
+              "new list of clients refused; the last one stays in use",
               {{"reason", to_string(fault)}});
   }
 }
@@ -37,9 +38,10 @@ void AccessFlags::declare(Options& options) {
                "Listen beyond loopback without encryption, to any client");
   options.text("--coordinator-file FILE", coordinator_file,
                "File for the coordinator's address (default: STORE.coordinator)");
-  options.text("--advertise HOST", advertise,
-               "Host in this file, a name or a number (default: the address of --bind; for all "
-               "interfaces this host's name, or its number where other hosts cannot use the name)");
+  options.text(
+      "--advertise HOST", advertise,
+      "Host name or address in this file (default: the address of --bind; for all interfaces this "
+      "host's name, or its address where other hosts cannot use the name)");
 }
 
 tl::expected<Access, std::vector<Error>> open_access(const AccessFlags& flags,

@@ -8,8 +8,8 @@ namespace swarmsmith::cli {
 
 /// Help for `--purpose` and `--per`, for all commands about the winners' scores.
 inline constexpr const char* kPurposeHelp =
-    "Which scores: of the campaign's tests, of later evaluations, or all (default: tests, and of a "
-    "source without tests what came later)";
+    "Which scores: of the campaign's tests, of later evaluations, or all (default: tests; for a "
+    "source without tests, later evaluations)";
 inline constexpr const char* kPerHelp =
     "What one value is (default design: the mean of its runs; run where each group is one design)";
 

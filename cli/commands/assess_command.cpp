@@ -56,7 +56,7 @@ ExitCode run_assess(const AssessArguments& arguments, Output& output) {
     for (const ModuleSpec& spec : *modules)
       if (!runs(spec))
         print_note(output,
-                   spec.id + " is external: other programs have it, and it is not assessed");
+                   spec.id + " is external: only other programs run it, so it cannot be assessed");
   }
   if (std::ranges::none_of(flavour->behaviours, runs) &&
       std::ranges::none_of(flavour->conditions, runs)) {

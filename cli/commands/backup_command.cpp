@@ -26,7 +26,7 @@ ExitCode run_backup(BackupArguments& arguments, Output& output) {
   }
   if (words.size() != 1) {
     return fail(output, ExitCode::Usage,
-                "wants two files: `swarmsmith backup campaign.db copy.db`");
+                "needs two files: `swarmsmith backup campaign.db copy.db`");
   }
   const auto store = arguments.store.path();
   if (!store) return fail(output, ExitCode::Usage, store.error());

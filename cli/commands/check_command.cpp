@@ -43,9 +43,9 @@ std::string decimals(double value, const char* format) {
 /// The budget of all races: experiments, or the running time of the programs.
 std::string budget_text(const Campaign& campaign, const CampaignPlan& plan) {
   if (campaign.race.max_time > 0) {
-    return "as many as a time of " + json_number(campaign.race.max_time) + " a design is good for";
+    return "as many as fit into a time of " + json_number(campaign.race.max_time) + " per design";
   }
-  return grouped(plan.experiments) + " (at most " + grouped(plan.largest_budget) + " a design)";
+  return grouped(plan.experiments) + " (at most " + grouped(plan.largest_budget) + " per design)";
 }
 
 /// The evaluator, and its speed.

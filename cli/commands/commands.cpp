@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::string_view kRunDetails =
     R"(Runs the design processes of a campaign file with its own workers, and prints the winners. Without a
-file it runs a demo: color_selection, 2,000 experiments, beside a machine by hand and a random one, store
-demo.db. Every score is stored as soon as it counts. After Ctrl-C, kill -9 or a power cut the same
-command continues, and comes to the same answer. On a finished store it prints the result again.
-Several campaigns share the workers; each has its own store, and the answer that it would have alone.
+file it runs a demo: color_selection, 2,000 experiments, next to a hand-written machine and a random one,
+store demo.db. Every score is stored as soon as it counts. After Ctrl-C, kill -9 or a power cut the same
+command continues, and gives the same answer. On a finished store it prints the result again. Several
+campaigns share the workers; each has its own store, and gives the answer that it would give alone.
 
 Examples:
   swarmsmith run
@@ -80,9 +80,10 @@ Example:
   swarmsmith extend d1 demo.db --budget 5_000 && swarmsmith run)";
 
 constexpr std::string_view kForgiveDetails =
-    R"(Lets workers work again that are in quarantine, because results of theirs were wrong or because they
-failed where others did not. `status` lists them, with the reason. Mend the host first: their first results are
-checked as those of new workers, and one wrong result brings them back. The scores in the store stay as they are.
+    R"(Lets workers in quarantine work again. They are there because their results were wrong, or because they
+failed where others did not. `status` lists them, with the reason. Fix the host first: their first results
+are checked like those of new workers, and one wrong result brings them back. The scores in the store stay
+as they are.
 
 Examples:
   swarmsmith forgive demo.db node7
@@ -149,7 +150,7 @@ Examples:
 
 constexpr std::string_view kProfileDetails =
     R"(Prints a built-in profile as a commented file, to edit and to name in a campaign file: profile =
-"my_rvr.toml". Of a file of your own it prints all settings, those of its base included. Without a
+"my_rvr.toml". For a file of your own it prints all settings, including those of its base. Without a
 name it lists the built-in profiles.
 
 Examples:
@@ -160,8 +161,8 @@ Examples:
 
 constexpr std::string_view kFlavourDetails =
     R"(Prints a built-in flavour as a commented file, to edit and to name in a campaign file (flavour =
-"mine.toml") or after --flavour. Of a file of your own it prints all of it, what its base has
-included. Without a name it lists the built-in flavours. docs/flavours.md explains the file.
+"mine.toml") or after --flavour. For a file of your own it prints everything, including what its
+base has. Without a name it lists the built-in flavours. docs/flavours.md explains the file.
 
 Examples:
   swarmsmith flavour
@@ -179,9 +180,9 @@ Examples:
   SWARMSMITH_STORE=demo.db swarmsmith status --watch)";
 
 constexpr std::string_view kExplainDetails =
-    R"(Of an evaluation: which race asked for it and whether it counted, who evaluated it, what went wrong
-before (lost, expired, failed, other results), and how to simulate it again. Of a design: how its winner
-came, part by part of its search.
+    R"(For an evaluation: which race asked for it and whether it counted, who evaluated it, what went wrong
+before (lost, expired, failed, other results), and how to simulate it again. For a design: how its winner
+came about, part by part of its search.
 
 Examples:
   swarmsmith explain e1000007 demo.db
@@ -224,7 +225,7 @@ Examples:
   swarmsmith query "SELECT seed, score FROM v_design_scores" demo.db --csv > scores.csv)";
 
 constexpr std::string_view kFigureDetails =
-    R"(The ending of the file selects the format: a picture (.svg; .pdf and .png with librsvg2-bin; .tex for
+    R"(The file's extension selects the format: a picture (.svg; .pdf and .png with librsvg2-bin; .tex for
 machines), or its numbers (.csv). docs/figures.md explains each kind.
 
 Examples:
@@ -264,7 +265,7 @@ the same race. `swarmsmith irace` runs a scenario directly.
 With --into: imports results into a store, all or nothing. Importing again changes nothing.
   scores    CSV with score (or cost), who (candidate, design, fsm_id, or mission, method, repetition), and
             source, seed, instance, time, note
-  machines  a text a line, or CSV with fsm (or fsm_config), fsm_id, mission, method
+  machines  one text per line, or CSV with fsm (or fsm_config), fsm_id, mission, method
   logs      irace.Rdata (needs Rscript), or the folder of its tables
 
 Examples:
@@ -315,11 +316,11 @@ Examples:
   swarmsmith ls designs thesis.db)";
 
 constexpr std::string_view kRecoverDetails =
-    R"(Makes a new store from a damaged one: every whole row of every page that is left, also without the
-file's header. It leaves out scores that another program has changed, derives anew what follows from
+    R"(Makes a new store from a damaged one: every whole row of every page that can be read, even without
+the file's header. It leaves out scores that another program has changed, derives again what follows from
 scores, and reports what is missing. Run the campaign on the new store: it evaluates what was lost, and
-comes to the same answer. Exit code 3 when values that can be neither told nor derived were changed: the
-new store says of itself that it is not reliable.
+gives the same answer. Exit code 3 when changed values can be neither identified nor derived: the new
+store then says that it is not reliable.
 
 Examples:
   swarmsmith recover demo.db -o rescued.db && swarmsmith run --store rescued.db
@@ -329,7 +330,7 @@ Examples:
 constexpr std::string_view kIraceDetails =
     R"(Replaces irace: it reads the same scenario, parameter, instance and configuration files, calls the same
 target-runner, has the same options, and ends with the same report. It keeps everything in the store
-that logFile names. After Ctrl-C, kill -9 or a failing target the same command continues, and comes to
+that logFile names. After Ctrl-C, kill -9 or a failing target the same command continues, and gives
 the same answer with any number of workers.
 
 Examples:
@@ -414,7 +415,7 @@ std::span<const ProgramCommand> commands() {
 
 ExitCode run_program(const std::vector<std::string>& arguments, Output& output) {
   const Program program{"swarmsmith", "Designs control software for robot swarms.", kCommands,
-                        "Begin with `swarmsmith run` (a demo) or `swarmsmith init`.", offer_stored};
+                        "Start with `swarmsmith run` (a demo) or `swarmsmith init`.", offer_stored};
   return run_program(program, arguments, output);
 }
 

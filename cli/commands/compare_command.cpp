@@ -194,7 +194,7 @@ CommandRun declare_compare(Options& options) {
   options.choice("--by", arguments->by, {"source", "method", "mission"},
                  "What to compare (default: source if there are several, else method)");
   options.flag("--matrix", arguments->matrix,
-               "Which method wins where, by how much, how sure: methods by missions");
+               "Which method wins where, by how much, and how certainly: methods by missions");
   options.texts("--mission MISSION", arguments->options.missions, "Only this mission; repeatable");
   options.text("--method METHOD", arguments->options.method, "Only this method");
   options.text("--source SOURCE", arguments->options.source, "Only scores of this source");

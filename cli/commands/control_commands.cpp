@@ -76,9 +76,8 @@ Expected<Wish> wish_of(const Arguments& arguments) {
     } else if (wish.store.empty()) {
       wish.store = word;
     } else {
-      return bad_input(
-          "`" + word +
-          "` is one word too many: a store is named already, and a design is written d3");
+      return bad_input("unexpected word `" + word +
+                       "`: a store is named already, and a design is written d3");
     }
   }
   if (wish.store.empty()) wish.store = store_of_environment();
@@ -249,7 +248,7 @@ CommandRun declare(CommandKind kind, Options& options) {
   if (kind == CommandKind::Forgive) {
     options.words("STORE WHO|STORE", arguments->words,
                   "The campaign's store (else SWARMSMITH_STORE), and keys, addresses or hosts in "
-                  "quarantine, as `status` has them");
+                  "quarantine, as `status` lists them");
   } else {
     options.words("STORE DESIGN|STORE", arguments->words,
                   std::string("The campaign's store (else SWARMSMITH_STORE), and designs: d1 d2") +

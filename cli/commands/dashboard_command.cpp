@@ -120,7 +120,7 @@ ExitCode write_snapshot(const DashboardArguments& arguments, Output& output) {
     if (!design) {
       return fail(
           output, ExitCode::Usage,
-          Error{ErrorKind::BadInput, "wants an id such as d3, not \"" + text + "\"", "--design"});
+          Error{ErrorKind::BadInput, "must be an id such as d3, not \"" + text + "\"", "--design"});
     }
     options.designs.push_back(*design);
   }
@@ -203,8 +203,8 @@ CommandRun declare_dashboard(Options& options) {
                 "Name of this host in addresses of the pages, such as a proxy's");
   CoordinatorArgument& coordinator = arguments->coordinator;
   options.text("--connect HOST:PORT|FILE", coordinator.connect,
-               "Ask the coordinator at HOST:PORT how the first store's campaign goes (default: "
-               "the one of STORE.coordinator)");
+               "Get the state of the first store's campaign from this coordinator (default: the "
+               "one of STORE.coordinator)");
   options.text("--key FILE", coordinator.key, "Key file, if the coordinator needs one");
   options.flag("--insecure-plaintext", coordinator.insecure_plaintext,
                "Ask a coordinator on another host without encryption");

@@ -36,7 +36,7 @@ Expected<std::string> digits_of(const std::string& text, char letter, const char
   const auto id = parse_thing_id(text);
   if (id && id->letter == letter) return id->digits;
   const std::string example = letter == 'd' ? "d3" : "c812";
-  return bad_input("wants an id such as " + example + ", not \"" + text + "\"", option);
+  return bad_input("must be an id such as " + example + ", not \"" + text + "\"", option);
 }
 
 /// SQL for machines, with the facts about each that people want to know; `selected` returns

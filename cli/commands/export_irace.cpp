@@ -19,8 +19,7 @@ Expected<void> write(const std::filesystem::path& folder, const std::vector<Name
   fs::create_directories(folder, trouble);
   for (const NamedText& file : files) {
     if (!fs::exists(folder / file.name, trouble)) continue;
-    return bad_input("is there already; name another folder with -o",
-                     (folder / file.name).string());
+    return bad_input("already exists; name another folder with -o", (folder / file.name).string());
   }
   for (const NamedText& file : files) {
     const fs::path path = folder / file.name;

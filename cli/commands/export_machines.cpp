@@ -80,7 +80,7 @@ Expected<World> world_of(StoreReader& store, DesignId design, const std::string&
       campaign->missions, [&](const CampaignMission& known) { return known.mission.name == name; });
   if (found != campaign->missions.end()) return World{found->mission, campaign->profile};
   return unexpected(ErrorKind::NotFound,
-                    "the store's campaign does not say what the mission " + name + " is");
+                    "the store's campaign does not describe the mission " + name + " is");
 }
 
 Expected<std::string> experiment_of(StoreReader& store, const MachineRecord& candidate,
@@ -156,9 +156,10 @@ void remark_profiles(StoreReader& store, const std::vector<CandidateId>& candida
     if (!world || !remarked.insert(world->profile.name).second) continue;
     const std::vector<std::string> keys = left_out_of_argos(world->profile);
     if (keys.empty()) continue;
-    print_note(output, fmt::format("an experiment file cannot say these keys of the profile {}, so "
-                                   "scores will differ: {}",
-                                   world->profile.name, fmt::join(keys, ", ")));
+    print_note(output,
+               fmt::format("an experiment file cannot express these keys of the profile {}, so "
+                           "scores will differ: {}",
+                           world->profile.name, fmt::join(keys, ", ")));
   }
 }
 
@@ -198,7 +199,7 @@ ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& cho
   if (what.place.empty() && (several || what.format == "pdf" || output.json)) {
     return fail(output, ExitCode::Usage,
                 several ? std::to_string(candidates.size()) +
-                              " machines are as many files; name a folder with -o FOLDER, or one "
+                              " machines need as many files; name a folder with -o FOLDER, or one "
                               "machine with --design or --candidate"
                         : "name a file with -o FILE");
   }
@@ -208,7 +209,7 @@ ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& cho
     return fail(output, ExitCode::Usage,
                 {ErrorKind::BadInput,
                  std::to_string(candidates.size()) +
-                     " machines are as many files; name a folder, or one machine with --design or "
+                     " machines need as many files; name a folder, or one machine with --design or "
                      "--candidate",
                  what.place});
   }
@@ -231,9 +232,11 @@ ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& cho
     }
   }
   if (const std::size_t left_out = chosen.size() - candidates.size(); left_out > 0) {
-    print_note(output, fmt::format("{} of {} are left out: .argos files are of state machines, and "
-                                   "of trees for e-pucks",
-                                   left_out, chosen.size()));
+    print_note(
+        output,
+        fmt::format(
+            "{} of {} are left out: .argos files can hold state machines, and for e-pucks trees",
+            left_out, chosen.size()));
   }
   if (what.format == "argos") {
     remark_flavours(store, candidates, output);

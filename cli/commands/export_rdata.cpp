@@ -37,7 +37,7 @@ Expected<DesignId> wanted_design(StoreReader& store, const std::string& word) {
   if (word.empty()) return bad_input("no design given; the store has: " + known, "--design");
   const auto id = parse_thing_id(word);
   if (!id || id->letter != 'd') {
-    return bad_input("wants an id such as d3, not \"" + word + "\"", "--design");
+    return bad_input("must be an id such as d3, not \"" + word + "\"", "--design");
   }
   return unexpected(ErrorKind::NotFound, "the store has no design " + word + "; it has: " + known);
 }
@@ -54,7 +54,7 @@ Expected<void> write_tables(const fs::path& folder,
   fs::create_directories(folder, trouble);
   for (const auto& [name, text] : tables) {
     if (!fs::exists(folder / name, trouble)) continue;
-    return bad_input("is there already; name another folder with -o", (folder / name).string());
+    return bad_input("already exists; name another folder with -o", (folder / name).string());
   }
   for (const auto& [name, text] : tables) {
     if (auto written = write_whole_file((folder / name).string(), text); !written) return written;
@@ -91,7 +91,7 @@ ExitCode tell(const std::string& kind, const std::string& place, DesignId design
       log.parameters, [](const LogParameter& parameter) { return parameter.domain.empty(); });
   if (unknown > 0) {
     print_note(output, "the store does not know the domains of " + std::to_string(unknown) +
-                           " parameters; their place has the values that were tried");
+                           " parameters; the log gets the values that were tried instead");
   }
   return ExitCode::Done;
 }

@@ -16,7 +16,7 @@ Expected<std::int64_t> number_of(const std::string& text, char letter, const cha
   const auto id = parse_thing_id(text);
   if (id && id->letter == letter) return std::stoll(id->digits);
   const std::string example = letter == 'd' ? "d3" : "c812";
-  return bad_input("wants an id such as " + example + ", not \"" + text + "\"", option);
+  return bad_input("must be an id such as " + example + ", not \"" + text + "\"", option);
 }
 
 /// Seeds of runs that are simulated again.
@@ -52,18 +52,18 @@ void FigureArguments::declare(Options& words) {
   words.flag("--paper", options.paper,
              "Leave out title, details and explanations, which a paper has in the caption");
   words.text("--font FONT", font,
-             "Of the texts, where it is installed, such as \"Linux Libertine\"");
+             "Font of the texts, which must be installed, such as \"Linux Libertine\"");
   words.text("--mission MISSION", options.filter.mission, "Only this mission");
   words.text("--method METHOD", options.filter.method, "Only this method");
-  words.text("--design DESIGN", design, "Only of this design: d3");
-  words.text("--candidate CANDIDATE", candidate, "Of this candidate: c812");
+  words.text("--design DESIGN", design, "Only this design: d3");
+  words.text("--candidate CANDIDATE", candidate, "Only this candidate: c812");
   words.integer("--iteration", options.iteration, {1, kLargest}, "Iteration of the race");
   words.choice("--by", options.by, {"source", "method", "mission"}, "What to compare");
   words.text("--source SOURCE", options.source, "Only scores of this source: a profile, real, ...");
   words.choice("--purpose", purpose, {"test", "score", "all"}, kPurposeHelp);
   words.choice("--per", per, {"run", "design"}, kPerHelp);
   words.text("--parameter PARAMETER", options.parameter, "Parameter, such as rwm0");
-  words.texts("--seed SEED", seeds, "Of runs of this seed; once for each");
+  words.texts("--seed SEED", seeds, "Only runs of this seed; repeatable");
 }
 
 std::vector<FigureKind> all_figure_kinds() {

@@ -51,12 +51,12 @@ std::size_t rows_of_csv(const std::string& csv) {
 Expected<std::string> figure_ending(const FigureArguments& arguments, const Output& output) {
   if (arguments.file.empty() || arguments.file == "-") {
     if (!output.json) return std::string(".svg");
-    return bad_input("standard output has the answer of --json; name a file for the figure", "-o");
+    return bad_input("--json writes to standard output; name a file for the figure", "-o");
   }
   std::string ending = std::filesystem::path(arguments.file).extension().string();
   for (const char* known : {".svg", ".pdf", ".png", ".csv", ".tex"})
     if (ending == known) return ending;
-  return bad_input("the file's ending must be .svg, .pdf, .png, .csv or .tex", arguments.file);
+  return bad_input("the file's extension must be .svg, .pdf, .png, .csv or .tex", arguments.file);
 }
 
 ExitCode figure_exit_code(const Error& error) {

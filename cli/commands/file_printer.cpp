@@ -24,7 +24,7 @@ ExitCode write(const CarriedFiles& files, const std::string& file, std::string_v
                Output& output) {
   if (std::error_code none; std::filesystem::exists(file, none)) {
     return fail(output, ExitCode::Usage,
-                Error{ErrorKind::BadInput, "is there already; name another file", file});
+                Error{ErrorKind::BadInput, "already exists; name another file", file});
   }
   if (auto written = write_whole_file(file, text); !written) {
     return fail(output, ExitCode::Failed, written.error());

@@ -33,8 +33,7 @@ std::string heading(const fs::path& scenario, const Campaign& campaign) {
          "# programs are named by their paths. Every key: docs/campaign-file.md\n"
          "#   swarmsmith check campaign.toml    what it will do\n"
          "#   swarmsmith run campaign.toml      runs it; kill it at any time, the same command "
-         "goes "
-         "on\n" +
+         "continues\n" +
          normalised_text(campaign);
 }
 
@@ -105,20 +104,20 @@ ExitCode run_import(const ImportOptions& arguments, Output& output) {
 CommandRun declare_import(Options& options) {
   auto arguments = std::make_shared<ImportOptions>();
   options.text("FILE", arguments->file,
-               "A scenario of irace; with --into scores or machines (.csv), machines (a text a "
+               "A scenario of irace; with --into scores or machines (.csv), machines (one text per "
                "line, or genomes), or a log of irace (.Rdata)",
                Options::Need::Required);
   options.text("-o,--output FILE", arguments->out,
                "Campaign file to write from a scenario (default: standard output)");
   options.text("--into STORE", arguments->into,
-               "Store to import into; made if needed for machines and logs, while scores need "
-               "their designs");
+               "Store to import into; made if needed for machines and logs; scores need a store "
+               "with their designs");
   options.text("--flavour FLAVOUR|FILE", arguments->flavour,
                "Flavour of machines whose file names none, or of a log's configurations: " +
                    joined(flavour_names()) + ", or a file");
   options.texts("--mission MISSION|FILE", arguments->missions,
                 "Mission of rows that name none; OLD=NEW renames one; a mission file in place of a "
-                "name says what the mission is, alone that of all rows; may be repeated");
+                "name describes the mission, and alone it is that of all rows; repeatable");
   options.text("--method METHOD", arguments->method,
                "Method of machines that name none (default: the flavour), or of a log (irace)");
   options.text("--name NAME", arguments->name,

@@ -93,7 +93,7 @@ ExitCode add_campaign(const ImportArguments& arguments, Target target, Addition 
     const auto digests = imported_digests(*target.reader);
     if (!digests) return fail(output, ExitCode::Store, digests.error());
     if (std::ranges::find(*digests, addition.campaign->digest) != digests->end()) {
-      print_note(output, "the store has imported the same before: nothing to add");
+      print_note(output, "the store has this import already: nothing to add");
       if (output.json) print_imported(what, {}, output);
       return ExitCode::Done;
     }
@@ -238,7 +238,7 @@ ExitCode import_scores_into(const ImportArguments& arguments, const CsvTable& ta
   if (trouble) return fail(output, ExitCode::Store, *trouble);
   if (!scores) return fail_all(output, scores.error());
   for (const std::string& column : scores->not_read)
-    print_note(output, "column " + column + " is not read");
+    print_note(output, "column " + column + " is ignored");
   const std::int64_t written = scores->added + scores->replaced;
   if (written > 0) {
     scores->addition.rows.emplace_back(
@@ -257,7 +257,7 @@ ExitCode import_scores_into(const ImportArguments& arguments, const CsvTable& ta
                << "\n";
   } else {
     output.out << counted(scores->added, "score") << " imported into " << arguments.into << ", "
-               << scores->replaced << " replaced, " << scores->known << " were there before\n";
+               << scores->replaced << " replaced, " << scores->known << " already there\n";
   }
   return ExitCode::Done;
 }

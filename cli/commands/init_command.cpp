@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view kTemplate =
     R"(# A campaign of Swarmsmith. Every key: docs/campaign-file.md
 #   swarmsmith check campaign.toml    what it will cost
-#   swarmsmith run campaign.toml      runs it; kill it at any time, the same command goes on
+#   swarmsmith run campaign.toml      runs it; kill it at any time, the same command continues
 format = 1
 
 [campaign]
@@ -107,7 +107,7 @@ ExitCode run_init(const InitArguments& arguments, Output& output) {
   std::filesystem::create_directories(arguments.folder, trouble);
   if (std::error_code none; std::filesystem::exists(file, none)) {
     return fail(output, ExitCode::Usage,
-                Error{ErrorKind::BadInput, "is there already; name another folder", file.string()});
+                Error{ErrorKind::BadInput, "already exists; name another folder", file.string()});
   }
   const std::string text = campaign_template(arguments.mission, arguments.flavour);
   if (auto written = write_whole_file(file.string(), text); !written) {

@@ -69,7 +69,7 @@ Expected<std::filesystem::path> finished_store(const IraceCommandLine& line,
   const auto text = line.settings.text("--store");
   if (text && !text->empty()) return absolute_path(*text, store->folder);
   if (!setup.log_file.empty()) return store_file(setup.log_file);
-  return bad_input("names no run: give the log file of one that is over (--log-file NAME)",
+  return bad_input("names no run: give the log file of a finished run (--log-file NAME)",
                    "--log-file");
 }
 
@@ -128,9 +128,9 @@ ExitCode carry_out(Output& output, const IraceCommandLine& line) {
   if (!setup) return complain(output, setup.error());
   if (const auto action = line.settings.text("--on-failure")) {
     if (*action != "stop" && *action != "reject") {
-      return fail(
-          output, ExitCode::Failed,
-          {ErrorKind::BadInput, "is stop or reject, found \"" + *action + "\"", "--on-failure"});
+      return fail(output, ExitCode::Failed,
+                  {ErrorKind::BadInput, "must be stop or reject, found \"" + *action + "\"",
+                   "--on-failure"});
     }
     setup->rejects_failures = *action == "reject";
   }

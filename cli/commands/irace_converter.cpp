@@ -80,7 +80,7 @@ Expected<std::string> run_script(const Script& script, const fs::path& folder, c
     if (const auto status = process.ended()) {
       if (WIFEXITED(*status) && WEXITSTATUS(*status) == 0) return "";
       const std::string& reason = process.last_line();
-      return reason.empty() ? "it says no reason" : reason;
+      return reason.empty() ? "it gives no reason" : reason;
     }
     process.last_line();  // reads all errors, because R would wait for a reader
     counter.tell(0, 1);

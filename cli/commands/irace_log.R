@@ -13,11 +13,11 @@ fail <- function(...) {
 }
 
 words <- commandArgs(trailingOnly = TRUE)
-if (length(words) != 2) fail("two words are wanted: LOG FOLDER")
+if (length(words) != 2) fail("expected two words: LOG FOLDER")
 loaded <- new.env()
 names_loaded <- tryCatch(load(words[1], envir = loaded),
-                         warning = function(e) fail("this is not a file of R's: ", conditionMessage(e)),
-                         error = function(e) fail("this is not a file of R's: ", conditionMessage(e)))
+                         warning = function(e) fail("this is not an R file: ", conditionMessage(e)),
+                         error = function(e) fail("this is not an R file: ", conditionMessage(e)))
 if (!"iraceResults" %in% names_loaded) fail("this is not a log of irace: it has no iraceResults")
 log <- loaded$iraceResults
 folder <- words[2]

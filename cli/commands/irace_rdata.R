@@ -13,7 +13,7 @@ fail <- function(...) {
 }
 
 words <- commandArgs(trailingOnly = TRUE)
-if (length(words) != 2) fail("two words are wanted: FOLDER LOG")
+if (length(words) != 2) fail("expected two words: FOLDER LOG")
 folder <- words[1]
 
 # Texts as they are, but for the apostrophe that keeps a spreadsheet from calculating.

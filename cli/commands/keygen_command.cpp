@@ -77,7 +77,7 @@ CommandRun declare_keygen(Options& options) {
         arguments->folder.empty() ? default_key_folder() : KeyFolder{arguments->folder};
     if (!arguments->client.empty()) return make_client(folder, *arguments, output);
     if (arguments->role.empty() && arguments->expires.empty()) return make_folder(folder, output);
-    return fail(output, ExitCode::Usage, "--role and --expires go with --client NAME");
+    return fail(output, ExitCode::Usage, "--role and --expires need --client NAME");
   };
 }
 

@@ -22,8 +22,8 @@ int main(int argc, char** argv) {
              "closed?"));
   } catch (const swarmsmith::StoreFailure& failure) {
     const std::string message = std::string("the store cannot be used: ") + failure.what() +
-                                "; take it from a backup, or let `swarmsmith recover` make a "
-                                "new store of what can be read";
+                                "; restore it from a backup, or let `swarmsmith recover` make a "
+                                "new store from what can be read";
     return static_cast<int>(
         fail(output, ExitCode::Store, {swarmsmith::ErrorKind::Corrupt, message, failure.file()}));
   } catch (const std::exception& error) {

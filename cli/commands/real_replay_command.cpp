@@ -20,7 +20,7 @@ namespace {
 
 Expected<std::vector<std::int64_t>> seeds_of(const RealReplayWords& words) {
   if (words.beside && !words.seeds.empty())
-    return bad_input("says how many, --seeds says which: name one of them", "--beside");
+    return bad_input("says how many, --seeds says which: give one of them", "--beside");
   if (!words.seeds.empty()) return parse_seeds(words.seeds);
   std::vector<std::int64_t> seeds(static_cast<std::size_t>(words.beside.value_or(0)));
   std::iota(seeds.begin(), seeds.end(), 1);
@@ -93,9 +93,10 @@ ExitCode replay_real(std::unique_ptr<StoreReader> store, const RealReplayWords& 
   const int to_output = (words.recording.csv == "-" ? 1 : 0) +
                         (words.recording.svg == "-" ? 1 : 0) + (output.json ? 1 : 0);
   if (words.recording.takes_standard_output() && to_output > 1) {
-    return fail(output, ExitCode::Usage,
-                Error{ErrorKind::BadInput, "only one of --csv -, --svg - and --json can have it",
-                      "standard output"});
+    return fail(
+        output, ExitCode::Usage,
+        Error{ErrorKind::BadInput, "only one of --csv -, --svg - and --json can write to it",
+              "standard output"});
   }
   if (const auto own = words.recording.check_files(); !own)
     return fail(output, ExitCode::Usage, own.error());

@@ -50,7 +50,7 @@ std::string design_text(const Rebuilt::Design& design) {
   }
   text += std::to_string(design.used) + " experiments";
   if (design.ahead > 0) {
-    text += "; " + std::to_string(design.ahead) + " scores of what comes later are kept";
+    text += "; " + std::to_string(design.ahead) + " scores of later steps are kept";
   }
   if (design.unasked > 0) {
     text += "; " + std::to_string(design.unasked) + " scores of tests are left out";
@@ -104,17 +104,17 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
     if (table.rows > 0 || table.lost_pages > 0 || table.broken > 0 || table.tree_is_lost)
       output.out << table.name << ": " << table_text(table) << "\n";
   }
-  if (found.unplaced > 0) output.out << found.unplaced << " rows might be of several tables\n";
+  if (found.unplaced > 0) output.out << found.unplaced << " rows might belong to several tables\n";
   if (found.changed_evaluations > 0) {
     output.out << found.changed_evaluations
-               << " evaluations are not those that were written, and were left out\n";
+               << " evaluations were changed after they were written, and were left out\n";
   }
   if (end.orphans > 0) {
     output.out << end.orphans << " rows belong to lost data and were left out\n";
   }
   if (report.without) {
     output.out << report.without->evaluations << " evaluations of " << report.without->workers
-               << " workers were taken away\n";
+               << " workers were removed\n";
   }
   for (const Rebuilt::Design& design : report.designs)
     output.out << as_shown(design_text(design), Layout::Escaped) << "\n";
@@ -201,14 +201,15 @@ ExitCode run_recover(RecoverArguments& arguments, Output& output) {
   if (!end) return fail(output, ExitCode::Store, end.error());
   write(output, (*recovery)->found(), report, *end, arguments.out);
   if (!end->doubt.empty()) {
-    return fail(output, ExitCode::Store,
-                {ErrorKind::Conflict,
-                 "scores in this store are not reliable: " + end->doubt +
-                     "; `swarmsmith verify` evaluates them again, and no campaign goes on from it",
-                 arguments.out});
+    return fail(
+        output, ExitCode::Store,
+        {ErrorKind::Conflict,
+         "scores in this store are not reliable: " + end->doubt +
+             "; `swarmsmith verify` evaluates them again, and no campaign can continue from it",
+         arguments.out});
   }
   if (report.without)
-    print_note(output, "the campaign goes on from there with `--store " + arguments.out + "`");
+    print_note(output, "the campaign continues from there with `--store " + arguments.out + "`");
   return ExitCode::Done;
 }
 
@@ -221,8 +222,8 @@ CommandRun declare_recover(Options& options) {
   options.text("NEW STORE", arguments->second, "The new store's file");
   options.text("-o,--output STORE", arguments->out, "The same");
   options.text("--without-key KEY", arguments->without_key,
-               "Leave out what workers of that key said (the key's name; of workers without one "
-               "their address), and never believe it again");
+               "Leave out the results of workers with that key (the key's name; for workers "
+               "without one their address), and never trust it again");
   options.text("--campaign FILE", arguments->campaign,
                "The campaign's file, if the store has lost its own copy");
   return [arguments](Output& output) { return run_recover(*arguments, output); };

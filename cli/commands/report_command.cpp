@@ -31,16 +31,15 @@ ExitCode run_report(const ReportArguments& arguments, Output& output) {
     if (!id || id->letter != 'd') {
       return fail(output, ExitCode::Usage,
                   Error{ErrorKind::BadInput,
-                        "wants a design such as d3, or \"all\", not \"" + text + "\"", "--design"});
+                        "must be a design such as d3, or \"all\", not \"" + text + "\"", "--design"});
     }
     options.designs.push_back({std::stoll(id->digits)});
   }
   const bool to_output = arguments.file == "-";
   if (to_output && output.json) {
-    return fail(
-        output, ExitCode::Usage,
-        Error{ErrorKind::BadInput,
-              "standard output has the answer of --json; name a file for the report", "-o"});
+    return fail(output, ExitCode::Usage,
+                Error{ErrorKind::BadInput,
+                      "--json writes to standard output; name a file for the report", "-o"});
   }
   const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());

@@ -27,7 +27,7 @@ CommandRun declare_run(Options& options) {
       "--slots", arguments->slots, {1, 10'000},
       "Parallel evaluations on this host (default: one per worker; with auto one per core)");
   options.flag("--ship", arguments->ship,
-               "Send workers along to hosts of ssh and Slurm: nothing need be installed there");
+               "Copy the worker to the hosts of ssh and Slurm: nothing has to be installed there");
   arguments->access.declare(options);
   arguments->http.declare(options);
   return [arguments](Output& output) {

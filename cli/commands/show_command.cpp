@@ -142,8 +142,8 @@ void write_text(Output& output, const std::vector<Part>& parts, const std::vecto
   output.out << as_lines(rows.front());
   for (std::size_t i = 1; i < parts.size(); ++i) {
     if (parts[i].name == kChecks && rows[i].cells.empty())
-      output.out << "\nchecks\nnot recorded: a version before them scored it; "
-                    "`swarmsmith track rescore` does it again\n";
+      output.out << "\nchecks\nnot recorded: an older version scored this run; `swarmsmith track "
+                    "rescore` scores it again\n";
     if (rows[i].cells.empty()) continue;
     output.out << "\n" << parts[i].name << "\n" << rows_as_text(rows[i]);
   }

@@ -14,7 +14,7 @@ ExitCode become(std::string program, const std::vector<std::string>& words,
                 const std::string& missing, Output& output) {
   std::error_code trouble;
   if (!std::filesystem::exists(program, trouble))
-    return fail(output, ExitCode::Unreachable, program + " is not there: " + missing);
+    return fail(output, ExitCode::Unreachable, program + " is not installed: " + missing);
   std::vector<std::string> copies(words);
   std::vector<char*> pointers{program.data()};
   for (std::string& word : copies)

@@ -104,9 +104,8 @@ ExitCode run_supplement(const SupplementArguments& arguments, Output& output) {
   fs::path folder = fs::path(arguments.folder).lexically_normal();
   if (folder.filename().empty()) folder = folder.parent_path();
   if (std::error_code ignored; fs::exists(fs::symlink_status(folder, ignored))) {
-    return fail(
-        output, ExitCode::Usage,
-        Error{ErrorKind::BadInput, "is there already; name another folder", folder.string()});
+    return fail(output, ExitCode::Usage,
+                Error{ErrorKind::BadInput, "already exists; name another folder", folder.string()});
   }
   const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
@@ -141,7 +140,7 @@ ExitCode run_supplement(const SupplementArguments& arguments, Output& output) {
       return fail(output, ExitCode::Failed, added.error());
   } else {
     print_note(output,
-               "no PDFs: the program rsvg-convert (Debian package librsvg2-bin) is not there");
+               "no PDFs: the program rsvg-convert (Debian package librsvg2-bin) is not installed");
   }
   files->push_back({"SHA256SUMS", checksums_of(*files)});
   if (const auto written = write_folder(folder, *files); !written)

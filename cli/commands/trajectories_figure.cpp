@@ -76,7 +76,7 @@ Expected<void> film(const StoredRun& run, ArenaPanels& panels, std::string& csv)
   const Measured result = simulate(run.setup(), Recorder(observe));
   if (run.outcome && !same_bits(*run.outcome, result)) {
     return unexpected(ErrorKind::Conflict,
-                      "this run does not come out as it is stored; `swarmsmith replay " +
+                      "this run differs from the stored one; `swarmsmith replay " +
                           (run.id.empty() ? run.candidate : run.id) + "` tells more",
                       "seed " + std::to_string(run.seed));
   }
@@ -105,11 +105,11 @@ Expected<Figure> film_all(StoreReader& store, const FigureOptions& options,
   auto runs = StoredRuns::open(store);
   if (!runs) return Unexpected(runs.error());
   const ThingId id{.letter = 'c', .digits = std::to_string(candidate->value), .purpose = {}};
-  ArenaPanels panels{.title = {},
-                     .details = {to_string(*candidate) +
-                                 "; hollow: start, solid: end; the floor is paler than it is"},
-                     .pictures = {},
-                     .width_mm = options.width_mm};
+  ArenaPanels panels{
+      .title = {},
+      .details = {to_string(*candidate) + "; hollow: start, solid: end; the floor is drawn paler"},
+      .pictures = {},
+      .width_mm = options.width_mm};
   Figure figure;
   figure.csv = "candidate,seed,";
   figure.csv += kTrajectoryColumns;

@@ -218,7 +218,7 @@ class Dashboard final : public HttpSite {
 
   static Expected<Answer> busy() {
     return unexpected(ErrorKind::Unavailable,
-                      "too much is being computed already; ask again in a second");
+                      "too many answers are being computed; ask again in a second");
   }
 
   Expected<Answer> ask(const SiteRequest& request, const DashboardStore& store,
@@ -237,7 +237,7 @@ class Dashboard final : public HttpSite {
                       .is_snapshot = options_.is_snapshot};
     if (pattern.path.starts_with("designs/")) {
       const auto design = id_from_text<DesignTag>(id);
-      if (!design) return bad_input("wants a design such as d3", id);
+      if (!design) return bad_input("must be a design such as d3", id);
       question.design = *design;
     }
     return pattern.route(question);
@@ -330,7 +330,7 @@ class Dashboard final : public HttpSite {
       const std::string& text = after->second;
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), after_s);
       if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(after_s))
-        return bad_input("wants seconds since 1970, not \"" + text + "\"", "after");
+        return bad_input("must be seconds since 1970, not \"" + text + "\"", "after");
     }
     const std::scoped_lock lock(mutex_);
     return json_answer(history_.json(after_s));

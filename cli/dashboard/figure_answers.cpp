@@ -24,7 +24,7 @@ Expected<std::string> word_of(const Question& question, const std::string& name,
     if (given == word) return given;
     list += (list.empty() ? "" : ", ") + std::string(word);
   }
-  return bad_input("wants one of " + list + ", not \"" + given + "\"", name);
+  return bad_input("must be one of " + list + ", not \"" + given + "\"", name);
 }
 
 Expected<FigureOptions> options_of(const Question& question) {
@@ -48,7 +48,7 @@ Expected<FigureOptions> options_of(const Question& question) {
   if (const std::string& given = question.text("candidate"); !given.empty()) {
     options.candidate = id_from_text<CandidateTag>(given);
     if (!options.candidate)
-      return bad_input("wants a candidate such as c812, not \"" + given + "\"", "candidate");
+      return bad_input("must be a candidate such as c812, not \"" + given + "\"", "candidate");
   }
   if (!question.text("iteration").empty()) {
     const auto iteration = question.integer("iteration", 1, 1, 1'000'000);

@@ -82,10 +82,10 @@ struct CauseText {
 
 /// A short form of the texts in docs/observability.md.
 constexpr std::array<CauseText, kIdleCauses> kCauseTexts{{
-    {IdleCause::StartUp, "new workers get what they must know", "It passes by itself."},
+    {IdleCause::StartUp, "new workers receive the campaign", "It passes by itself."},
     {IdleCause::Barrier, "races wait for the last results of a step",
      "Run more designs at the same time, or use fewer slots."},
-    {IdleCause::Credit, "workers ask for less than they have slots for",
+    {IdleCause::Credit, "workers ask for fewer tasks than they have slots",
      "They drain, or have many results that are not acknowledged: look at their silence below."},
     {IdleCause::Alone, "a worker is held free to run a suspect task alone",
      "It passes when that task has run alone."},

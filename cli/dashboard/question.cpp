@@ -23,7 +23,7 @@ Expected<std::int64_t> integer_parameter(const Parameters& parameters, const std
   const char* const end = given.data() + given.size();
   const auto [stop, error] = std::from_chars(given.data(), end, value);
   if (error == std::errc() && stop == end && value >= least && value <= most) return value;
-  return bad_input("wants a whole number from " + std::to_string(least) + " to " +
+  return bad_input("must be a whole number from " + std::to_string(least) + " to " +
                        std::to_string(most) + ", not \"" + given + "\"",
                    name);
 }
@@ -33,7 +33,7 @@ Expected<std::optional<DesignId>> Question::design_parameter() const {
   if (given.empty()) return std::optional<DesignId>();
   const auto named = id_from_text<DesignTag>(given);
   if (named) return std::optional(*named);
-  return bad_input("wants a design such as d3, not \"" + given + "\"", "design");
+  return bad_input("must be a design such as d3, not \"" + given + "\"", "design");
 }
 
 JsonObject answer_object() {

@@ -53,7 +53,7 @@ Expected<RunName> name_of_run(const std::string& text) {
   const bool good_profile = at == text.size() || (letter == 'c' && !name.profile.empty());
   if (good && good_profile) return name;
   return bad_input(
-      "wants an evaluation (e81200007), a candidate with a seed (c812-7) and perhaps a profile "
+      "must be an evaluation (e81200007), a candidate with a seed (c812-7) and perhaps a profile "
       "(c812-7@pseudo-reality), a real run (r7), or a simulation beside it (r7-1)",
       text);
 }

@@ -55,7 +55,7 @@ Expected<Answer> sql_answer(const Question& question, const std::string& program
   const std::string& format = question.text("format");
   const bool csv = format == "csv";
   if (!csv && !format.empty() && format != "json")
-    return bad_input("wants json or csv, not \"" + format + "\"", "format");
+    return bad_input("must be json or csv, not \"" + format + "\"", "format");
   std::vector<std::string> words{program,     "query",
                                  "--store",   question.file.string(),
                                  "--limit",   std::to_string(*limit),

@@ -287,7 +287,7 @@ Expected<Answer> steps_answer(const Question& question) {
 
 Expected<Answer> candidate_answer(const Question& question) {
   const auto id = id_from_text<CandidateTag>(question.id);
-  if (!id) return bad_input("wants a candidate such as c812", question.id);
+  if (!id) return bad_input("must be a candidate such as c812", question.id);
   const std::string own = " WHERE candidate = " + std::to_string(id->value);
   auto candidate = rows_of(question, "SELECT * FROM v_candidates" + own);
   if (!candidate) return Unexpected(candidate.error());
@@ -326,7 +326,7 @@ Expected<Answer> candidate_answer(const Question& question) {
 Expected<Answer> evaluation_answer(const Question& question) {
   const auto id = parse_thing_id(question.id);
   if (!id || id->letter != 'e')
-    return bad_input("wants an evaluation such as e81200007", question.id);
+    return bad_input("must be an evaluation such as e81200007", question.id);
   const auto history = read_history(question.store, *id);
   if (!history) return Unexpected(history.error());
   if (!history->is_known())

@@ -39,7 +39,7 @@ Expected<Configuration> read_configuration(const IraceSetting& setting, const st
   const auto read = parse_configurations_file({std::move(*text), file.string()}, setup.space);
   if (!read) return Unexpected(read.error());
   if (read->size() == 1) return read->front();
-  return bad_input(fmt::format("has {} configurations, and {} wants one", read->size(), option),
+  return bad_input(fmt::format("has {} configurations, and {} takes one", read->size(), option),
                    file.string());
 }
 
@@ -88,7 +88,7 @@ Expected<AblationWay> ablation_way(const IraceSettings& settings, const IraceSet
     *end = std::move(*found);
   }
   if (way.source != way.target) return way;
-  return bad_input(fmt::format("configurations {} and {} are the same: name others by "
+  return bad_input(fmt::format("configurations {} and {} are the same: name others with "
                                "--ablation-source and --ablation-target",
                                way.from, way.to),
                    "--ablation");
@@ -116,7 +116,7 @@ Expected<std::vector<std::string>> words_of_r_ablation(std::vector<std::string> 
     });
     if (found == kSwitches.end()) continue;
     if (found->ours.empty())
-      return bad_input("is R's, and not there: " + std::string(found->advice), name);
+      return bad_input("exists only in R's irace: " + std::string(found->advice), name);
     words[i].replace(0, name.size(), found->ours);
   }
   return words;

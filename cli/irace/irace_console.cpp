@@ -115,7 +115,7 @@ Expected<void> IraceConsole::go_on_from(StoreReader& store) {
   // Rows after the last step are not replayed yet; they come again.
   if (steps.empty()) return {};
   const std::int64_t current = steps.back().iteration;
-  write(fmt::format("# {}: Going on after {} experiments\n", date_(), steps.back().used));
+  write(fmt::format("# {}: Continuing after {} experiments\n", date_(), steps.back().used));
   for (const RaceStepRow& step : steps) {
     if (step.iteration == current) {
       if (!in_table_) begin_iteration(iterations[current]);

@@ -33,7 +33,7 @@ Expected<std::int64_t> budget_of(const IraceSettings& settings, const IraceSetup
   if (trouble != std::errc() || rest != end || !(number > 0) || number > 1e15 ||
       (!is_share && number != std::floor(number)))
     return bad_input(
-        "is a whole number of experiments, or a share of maxExperiments above 0 and up to 1, "
+        "must be a whole number of experiments, or a share of maxExperiments above 0 and up to 1, "
         "found \"" +
             *text + "\"",
         kBudgetOption);
@@ -63,7 +63,7 @@ Expected<std::vector<std::int64_t>> contestants_of(const IraceSettings& settings
       const char* end = word.data() + word.size();
       const auto [rest, trouble] = std::from_chars(word.data(), end, id);
       if (trouble != std::errc() || rest != end || id < 1)
-        return bad_input("is a list as 3,17,20, found \"" + *text + "\"", kIdsOption);
+        return bad_input("must be a list such as 3,17,20, found \"" + *text + "\"", kIdsOption);
       const auto found = stored.find(id, kIdsOption);
       if (!found) return Unexpected(found.error());
       add(id);
@@ -78,8 +78,8 @@ Expected<std::vector<std::int64_t>> contestants_of(const IraceSettings& settings
   }
   if (ids.size() > 1) return ids;
   return bad_input(
-      "a race needs two configurations or more: name them as --psrace-ids 3,17, or "
-      "take all elites by --psrace-elites",
+      "a race needs two configurations or more: name them, such as --psrace-ids 3,17, or take all "
+      "elites with --psrace-elites",
       "--psrace");
 }
 

@@ -96,7 +96,7 @@ class WorkWatch final : public RunListener {
 
 std::string no_result(const std::string& reason) {
   return "there is no best configuration: " + with_irace_option_names(reason) +
-         ". Mend the target or the scenario, and begin again with another store (--log-file NAME) "
+         ". Fix the target or the scenario, and start again with another store (--log-file NAME) "
          "or without this one";
 }
 
@@ -143,9 +143,10 @@ class ScenarioRun {
     const std::optional<Campaign> stored = stored_campaign(place_.file());
     if (!stored || stored->race.max_time <= 0) return;
     if (stored->race.parallel != campaign_.race.parallel) {
-      print_note(output_, fmt::format("the store was begun with --parallel {}, which its budget of "
-                                      "time keeps; runs are made {} at a time now",
-                                      stored->race.parallel, setup_.parallel.value_or(1)));
+      print_note(output_,
+                 fmt::format("the store was started with --parallel {}, which its budget of "
+                             "time keeps; runs are made {} at a time now",
+                             stored->race.parallel, setup_.parallel.value_or(1)));
     }
     campaign_.race.parallel = stored->race.parallel;
   }

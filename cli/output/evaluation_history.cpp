@@ -98,7 +98,7 @@ std::string why(const EvaluationHistory& history) {
   const auto known = purpose_of_word(purpose);
   if (known && !facts_of(*known)->why.empty()) return std::string(facts_of(*known)->why);
   const std::string iteration = cell_text(history.evaluation, "iteration");
-  if (iteration.empty()) return "looked ahead: no race has wanted it";
+  if (iteration.empty()) return "look-ahead: no race has asked for it";
   const std::string step = cell_text(history.steps, "step");
   const std::string part = history.stages.round(history.design, iteration);
   return (history.is_race() ? "the race of " + ("iteration " + iteration) : part) +

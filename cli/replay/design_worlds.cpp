@@ -95,7 +95,7 @@ class FirstOfName {
     is_mixed = true;
     sentences.push_back("campaigns " + std::to_string(whose) + " and " + std::to_string(campaign) +
                         " have different " + kind_ + "s of the name " + name +
-                        "; tables and figures take their scores for scores of one " + kind_);
+                        "; tables and figures treat their scores as scores of one " + kind_);
   }
 
  private:

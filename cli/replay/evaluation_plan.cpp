@@ -45,7 +45,7 @@ Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMach
   if (name.empty()) {
     return bad_input("the machine's flavour is unknown; add --flavour with one of " +
                      joined(flavour_names()) +
-                     ", or a file; files that `swarmsmith export` writes say it");
+                     ", or a file; files that `swarmsmith export` writes name it");
   }
   const bool is_other = name != named.flavour || own != named.own_flavour;
   if (!named.candidate && !named.flavour.empty() && is_other) {
@@ -164,8 +164,8 @@ Expected<std::vector<NamedMachine>> machines_of(const EvaluateArguments& argumen
   const auto id = parse_thing_id(arguments.machine);
   const bool of_store = arguments.machine == "best" || (id && id->letter == 'c');
   if (!of_store && !arguments.store.word.empty()) {
-    return bad_input("`" + arguments.store.word +
-                     "` is one word too many: a store is only for a candidate (c812) or `best`");
+    return bad_input("unexpected word `" + arguments.store.word +
+                     "`: a store is only for a candidate (c812) or `best`");
   }
   if (arguments.machine == "best") {
     if (arguments.campaign.empty()) return winners_of(arguments);
@@ -174,7 +174,8 @@ Expected<std::vector<NamedMachine>> machines_of(const EvaluateArguments& argumen
   auto machines = find_machines(arguments.machine, arguments.store, output);
   if (!machines) return Unexpected(machines.error());
   if (arguments.designs.size() > 1) {
-    return bad_input("is one design here; with `best` it may be there more than once", "--design");
+    return bad_input("is one design here; only with `best` may it be given more than once",
+                     "--design");
   }
   if (!arguments.campaign.empty()) {
     auto source = campaign_of(arguments.campaign, output);

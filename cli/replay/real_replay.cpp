@@ -138,7 +138,7 @@ std::string picture_of(const RealReplay& replay, RealRunId id, double width_mm) 
   if (!rows.recorded.empty()) who += ", " + rows.recorded;
   if (rows.candidate) who += ", " + to_string(rows.candidate);
   ArenaPanels panels{.title = replay.filmed.mission.name,
-                     .details = {who, "hollow: start, solid: end; the floor is paler than it is"},
+                     .details = {who, "hollow: start, solid: end; the floor is drawn paler"},
                      .pictures = {},
                      .width_mm = width_mm};
   if (!replay.starts_as_real) panels.details.emplace_back("simulations start elsewhere");

@@ -30,7 +30,7 @@ Expected<int> instant_of(std::string_view text, const char* option, const Missio
   }
   std::string most;
   append_number(most, longest);
-  return bad_input("wants seconds from 0 to " + most + ", the mission's end, not \"" + given + "\"",
+  return bad_input("must be seconds from 0 to " + most + ", the mission's end, not \"" + given + "\"",
                    option);
 }
 
@@ -92,7 +92,7 @@ Expected<void> Recording::read_span(const RecordingArguments& arguments) {
   last_ = mission_->cycles;
   const bool spans = !arguments.from.empty() || !arguments.to.empty();
   if (!arguments.at.empty() && spans) {
-    return bad_input("draws one instant, --from and --to draw a span: name one of them", "--at");
+    return bad_input("draws one instant, --from and --to draw a span: give one of them", "--at");
   }
   const std::array<std::pair<const std::string*, const char*>, 3> texts = {
       {{&arguments.at, "--at"}, {&arguments.from, "--from"}, {&arguments.to, "--to"}}};
@@ -115,7 +115,7 @@ Expected<Recording> Recording::start(const RecordingArguments& arguments, const 
                                  (arguments.objects_csv == "-" ? 1 : 0) +
                                  (arguments.svg == "-" ? 1 : 0) + (output.json ? 1 : 0);
   if (arguments.takes_standard_output() && to_standard_output > 1) {
-    return bad_input("only one of --csv -, --objects-csv -, --svg - and --json can have it",
+    return bad_input("only one of --csv -, --objects-csv -, --svg - and --json can write to it",
                      "standard output");
   }
   if (auto own = arguments.check_files(); !own) return Unexpected(own.error());

@@ -178,7 +178,7 @@ std::string other_engine(int stored_version, int version) {
   if (is_same || stored_version == 0) return "";
   return "the store's scores are of version " + std::to_string(stored_version) +
          " of the engine, this program has version " + std::to_string(version) +
-         ", which need not give the same bits";
+         ", which may give other bits";
 }
 
 Expected<StoredRuns> StoredRuns::open(std::unique_ptr<StoreReader> store) {

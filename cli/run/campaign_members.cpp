@@ -53,12 +53,12 @@ ExitCode CampaignMembers::open_stores(RunListener& listener) {
     for (const CommandRow& command : commands)
       listener.restore(i, command);
     if (const StoredTrust trust = (*store)->trust(); trust.distrusted) {
-      std::string way_on = "`swarmsmith verify` evaluates them again; go on from a backup";
+      std::string way_on = "`swarmsmith verify` evaluates them again; continue from a backup";
       if (!trust.quarantined.empty()) {
         way_on = "`swarmsmith recover " + campaign.store.string() + " --without-key \"" +
                  key_of_principal(trust.quarantined.back().principal) +
-                 "\" -o NEW.db` makes a store without what that key said, and the campaign goes on "
-                 "from there with --store NEW.db";
+                 "\" -o NEW.db` makes a store without the results of that key, and the campaign "
+                 "continues from there with --store NEW.db";
       }
       return fail(output_, ExitCode::Store,
                   {ErrorKind::Conflict,
@@ -99,7 +99,7 @@ void CampaignMembers::replay(Member& member, std::vector<DesignPlan> plans) {
   const std::vector<DesignId> ended = ended_designs(store.design_states(), commands);
   const auto scores = store.scores();
   if (!scores.empty()) {
-    print_note(output_, "going on with " + std::to_string(scores.size()) +
+    print_note(output_, "continuing with " + std::to_string(scores.size()) +
                             " evaluations that are in " + file);
   }
   member.runner = std::make_unique<CampaignRunner>(

@@ -74,7 +74,7 @@ void warn_about_scores(const std::string& mission, const RandomRuns& measured,
   } else if (measured.runs >= kEnough && measured.least == measured.most) {
     warnings.push_back("mission " + mission + ": " + std::to_string(measured.runs) +
                        " runs of random machines all scored " + json_number(measured.most) +
-                       "; can a score be another one at all?");
+                       "; is any other score possible?");
   }
 }
 

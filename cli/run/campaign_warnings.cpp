@@ -21,10 +21,10 @@ void warn_about_black(const Method& method, const Flavour& flavour, const Profil
   const bool narrow = flavour.floor.black.high < 1000;
   if (!has(method.conditions, Module::BlackFloor) || !narrow || profile.ground_color.sd == 0)
     return;
-  warnings.push_back("method \"" + method.name + "\": flavour " + method.flavour +
-                     " takes only a pure black for black, so that with the ground noise of "
-                     "profile " +
-                     profile.name + " black_floor hardly ever holds");
+  warnings.push_back(
+      "method \"" + method.name + "\": flavour " + method.flavour +
+      " accepts only pure black as black, so that with the ground noise of profile " +
+      profile.name + " black_floor hardly ever holds");
 }
 
 /// Warns if the range of the proximity sensors differs from the range that the flavour assumes.
@@ -37,8 +37,8 @@ void warn_about_range(const Method& method, const Flavour& flavour, const Profil
                      " takes obstacles into account up to " + json_number(expected) +
                      " m, but the proximity sensors of profile " + profile.name + " see up to " +
                      json_number(range) + " m; " +
-                     (range < expected ? "obstacles between are never seen"
-                                       : "what they see beyond is not heeded"));
+                     (range < expected ? "obstacles in between are never seen"
+                                       : "what they see beyond that is ignored"));
 }
 
 /// Without a light, both phototaxis behaviours only avoid obstacles.
@@ -74,7 +74,7 @@ void warn_about_low_walls(const Mission& mission, std::vector<std::string>& warn
   if (sensors_m <= walls_m) return;
   warnings.push_back("mission " + mission.name + ": the robot's proximity sensors are " +
                      json_number(sensors_m) + " m high, its walls " + json_number(walls_m) +
-                     " m; simulated rays meet walls of any height");
+                     " m; simulated rays hit walls of any height");
 }
 
 /// The modules of a method that use neighbours; a network always reads them.
@@ -119,7 +119,7 @@ void warn_about_robot(const Mission& mission, std::vector<std::string>& warnings
   const auto kept = kept_constants(mission.robot);
   if (!kept) return;
   warnings.push_back("mission " + mission.name +
-                     ": its robot has a shape of its own, and all else of the RVR: " +
+                     ": its robot has a shape of its own; everything else is that of the RVR: " +
                      json_number(kept->mass_kg) + " kg, a drive of " + json_number(kept->drive_N) +
                      " N, treads " + json_number(kept->treads_m) + " m apart, the ground sensor " +
                      json_number(kept->ground_sensor_m) + " m ahead of the centre, a height of " +

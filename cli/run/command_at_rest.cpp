@@ -136,7 +136,7 @@ Expected<std::string> command_at_rest(Store& store, const CampaignRow& known,
   const std::string name = to_string(command.design);
   if (command.kind == CommandKind::Cancel) return name + " ends when the campaign is run again";
   return name + " gets " + std::to_string(command.budget) +
-         " experiments more when the campaign is run again";
+         " more experiments when the campaign is run again";
 }
 
 }  // namespace swarmsmith::cli

@@ -111,7 +111,7 @@ Expected<std::string> command_by_wire(const CoordinatorSearch& search, const std
     }
     if (socket.refused()) {
       return bad_input(
-          "it does not let this key in: its clients.toml must list the key with the role operator "
+          "it does not accept this key: its clients.toml must list the key with the role operator "
           "(`swarmsmith keygen --client NAME --role operator`)",
           found->endpoint);
     }
@@ -124,7 +124,7 @@ Expected<std::string> command_by_wire(const CoordinatorSearch& search, const std
   return unexpected(ErrorKind::Unavailable,
                     "the coordinator has not confirmed the command within " +
                         std::to_string(patience.count()) +
-                        " s; it may still carry it out: `swarmsmith status STORE` tells",
+                        " s; it may still carry it out: `swarmsmith status STORE` shows it",
                     found->endpoint);
 }
 

@@ -96,8 +96,9 @@ Expected<void> check_agreement(const std::vector<Campaign>& campaigns, const Run
     const bool alike = campaign.local_workers == campaigns.front().local_workers &&
                        campaign.launch == campaigns.front().launch;
     if (!said && !alike) {
-      return bad_input("the campaigns ask for different workers: say by --workers which they share",
-                       campaign.name);
+      return bad_input(
+          "the campaigns ask for different workers: choose with --workers which ones they share",
+          campaign.name);
     }
     if (options.bind.empty() && campaign.bind != campaigns.front().bind) {
       return bad_input("the campaigns listen on different addresses: give them the same `bind`",

@@ -120,10 +120,9 @@ Expected<std::string> experiment_of_rvrs(const ArgosExperiment& experiment) {
   const Mission& mission = experiment.mission;
   const auto* machine = std::get_if<Machine>(&experiment.controller);
   if (machine == nullptr) {
-    return bad_input(
-        fmt::format("the control software is a {}, and .argos files of RVRs are of state machines "
-                    "alone",
-                    name_of(architecture_of(experiment.controller))));
+    return bad_input(fmt::format(
+        "the control software is a {}, and .argos files of RVRs can hold only state machines",
+        name_of(architecture_of(experiment.controller))));
   }
   const auto functions = loop_functions_of(mission);
   if (!functions) return Unexpected(functions.error());

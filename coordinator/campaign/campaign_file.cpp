@@ -64,9 +64,9 @@ void check_pictures(TableReader& root, const Campaign& campaign) {
     }
   }
   if (bytes <= kMostBytes) return;
-  root.complain("mission", "the images of all missions have " + std::to_string(bytes >> 20U) +
-                               " MB; at most 24 MB are taken: make them smaller, or make two "
-                               "campaigns");
+  root.complain("mission",
+                "the images of all missions have " + std::to_string(bytes >> 20U) +
+                    " MB; at most 24 MB are allowed: make them smaller, or make two campaigns");
 }
 
 /// A profile given by name or in a separate file; none after a complaint.
@@ -155,7 +155,8 @@ void read_tests(TableReader& root, const std::filesystem::path& folder, Campaign
   auto tests = root.table("tests");
   if (!tests) return;
   if (campaign.target) {
-    tests->complain("profiles", "programs evaluate, and they have no profiles of the simulator");
+    tests->complain("profiles",
+                    "programs evaluate here, and the simulator's profiles do not apply to them");
     tests->take("profiles");
     tests->take("profile");
     return tests->finish();
@@ -328,10 +329,10 @@ CampaignOrErrors read_campaign(const std::filesystem::path& file,
     if (campaign || !parse_mission(*text, file)) return campaign;
     return tl::unexpected(
         std::vector<Error>{{ErrorKind::BadInput,
-                            "this is a mission, not a campaign: a campaign file names it, "
-                            "[[mission]] with preset = \"" +
+                            "this is a mission, not a campaign: a campaign file names it "
+                            "([[mission]] with preset = \"" +
                                 file.filename().string() +
-                                "\", and with a method and a budget; `swarmsmith init` writes one",
+                                "\"), and has a method and a budget; `swarmsmith init` writes one",
                             file.string()}});
   }
   Error error = std::move(text.error());

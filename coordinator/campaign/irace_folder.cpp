@@ -69,7 +69,7 @@ std::string reported(const Method& method) {
     case Architecture::Network:
       break;
   }
-  return "behind its number, is the weights that were found; commas\nbelong between them";
+  return "after its number, is the weights that were found; commas\nbelong between them";
 }
 
 std::string found_text(const Method& method) {
@@ -102,8 +102,8 @@ std::string readme(const Campaign& campaign, const Method& method, const DesignR
          "    irace --scenario scenario.txt            (R's)\n"
          "    swarmsmith irace --scenario scenario.txt (the same files, without R)\n"
          "\n"
-         "started in this folder. --parallel N runs N simulations at a time, --seed S draws\n"
-         "others.\n"
+         "Run one of them in this folder. --parallel N runs N simulations at a time, --seed S\n"
+         "changes the seed.\n"
          "\n"
          "parameters.txt  " +
          parameters +

@@ -79,9 +79,9 @@ Expected<MethodSpace> MethodSpace::make(const Method& method, int digits, bool a
   if (!parameters) return Unexpected(parameters.error());
   made.parameters_ = std::move(parameters->space);
   if (const std::size_t bytes = longest_call(*made.parameters_); bytes > kMostCallBytes) {
-    return bad_input("switches and values of one call may take " + std::to_string(bytes) +
-                         " bytes, and a program is given at most " +
-                         std::to_string(kMostCallBytes) + ": fewer parameters, or shorter switches",
+    return bad_input("switches and values of one call can take " + std::to_string(bytes) +
+                         " bytes, and a program can get at most " + std::to_string(kMostCallBytes) +
+                         ": use fewer parameters, or shorter switches",
                      "parameters");
   }
   if (method.configurations.empty()) return made;

@@ -21,7 +21,8 @@ void check_program(const std::string& path, const std::string& key, std::vector<
     errors.push_back({ErrorKind::BadInput, "`" + key + "`: this is not a file", path});
   } else if (::access(path.c_str(), X_OK) != 0) {
     errors.push_back({ErrorKind::BadInput,
-                      "`" + key + "`: the program may not be run; `chmod +x` allows it", path});
+                      "`" + key + "`: the program is not executable; `chmod +x` makes it so",
+                      path});
   }
 }
 

@@ -34,7 +34,7 @@ void AheadTasks::want(const EvaluationKey& key) {
 }
 
 void AheadTasks::end_step(std::span<const std::int64_t> alive) {
-  SWARMSMITH_ASSERT(std::ranges::is_sorted(alive), "it is looked up by halving");
+  SWARMSMITH_ASSERT(std::ranges::is_sorted(alive), "binary search needs ascending order");
   expected_.clear();
   pairs_ = 0;
   seen_ = 0;

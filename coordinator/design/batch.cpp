@@ -22,12 +22,12 @@ Batch::Batch(std::vector<Experiment> experiments)
     : experiments_(std::move(experiments)), scores_(experiments_.size()) {}
 
 void Batch::put(std::size_t position, const StoredScore& score) {
-  SWARMSMITH_ASSERT(position < scores_.size(), "what is put is one of the batch");
+  SWARMSMITH_ASSERT(position < scores_.size(), "the position is in the batch");
   scores_[position] = score;
 }
 
 void Batch::await(std::size_t position, const EvaluationKey& key) {
-  SWARMSMITH_ASSERT(position < experiments_.size(), "what is awaited is one of the batch");
+  SWARMSMITH_ASSERT(position < experiments_.size(), "the position is in the batch");
   const bool is_new = awaited_.emplace(packed_key(key), position).second;
   SWARMSMITH_ASSERT(is_new, "a batch has an evaluation once: its outcome comes once");
 }

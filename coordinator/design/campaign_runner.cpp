@@ -127,7 +127,8 @@ void CampaignRunner::put_away(DesignId id) {
   if (ended.mapped().state() != DesignState::Finished) return forget(ended.mapped());
   kept_.insert(std::move(ended));
   kept_order_.push_back(id);
-  SWARMSMITH_ASSERT(kept_order_.size() == kept_.size(), "each that is kept has its turn to go");
+  SWARMSMITH_ASSERT(kept_order_.size() == kept_.size(),
+                    "every kept design is in the order of removal");
   while (keeps_too_many()) {
     forget(kept_.extract(kept_order_.front()).mapped());
     kept_order_.erase(kept_order_.begin());

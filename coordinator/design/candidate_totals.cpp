@@ -20,14 +20,14 @@ void CandidateTotals::add_up_to(std::int64_t number) {
 }
 
 CandidateTotalsRow CandidateTotals::add_run(std::int64_t number, double score) {
-  SWARMSMITH_ASSERT(number >= 1 && number <= count(), "a run is of a candidate that was made");
+  SWARMSMITH_ASSERT(number >= 1 && number <= count(), "a run needs an existing candidate");
   Sums& sums = runs_[static_cast<std::size_t>(number - 1)];
   sums.add(score);
   return row(number, sums);
 }
 
 CandidateTotalsRow CandidateTotals::judge(std::int64_t number, std::int64_t pair, double score) {
-  SWARMSMITH_ASSERT(number >= 1 && number <= count(), "a call is of a candidate that was made");
+  SWARMSMITH_ASSERT(number >= 1 && number <= count(), "a call needs an existing candidate");
   if (judged_.size() < runs_.size()) judged_.resize(runs_.size());
   auto& by_pair = judged_[static_cast<std::size_t>(number - 1)];
   by_pair[pair] = score;

@@ -51,7 +51,7 @@ void CommandLog::add(const CommandRow& command) {
 }
 
 const CommandRow* CommandLog::next(CommandKind kind, std::int64_t steps) const {
-  SWARMSMITH_ASSERT(acted_ <= commands_.size(), "those that acted are among all");
+  SWARMSMITH_ASSERT(acted_ <= commands_.size(), "no more commands have acted than were given");
   const auto next = commands_.begin() + static_cast<std::ptrdiff_t>(acted_);
   if (next == commands_.end()) return nullptr;
   if (next->step) return next->kind == kind && *next->step == steps ? &*next : nullptr;
@@ -62,7 +62,7 @@ const CommandRow* CommandLog::next(CommandKind kind, std::int64_t steps) const {
 
 CommandRow CommandLog::act(CommandRow command, std::int64_t steps) {
   SWARMSMITH_ASSERT(command.step.value_or(steps) == steps,
-                    "a command that has acted acts again after the same step");
+                    "a command acts again after the same step as before");
   const auto removed = std::erase_if(
       commands_, [&](const CommandRow& other) { return other.number == command.number; });
   SWARMSMITH_ASSERT(removed == 1, "a command acts once");

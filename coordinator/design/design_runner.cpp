@@ -126,7 +126,7 @@ Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>
       return bad_input(
           fmt::format(
               "{} more experiments are too few {}; at least {} are needed", command.budget,
-              kind_of(plan_.search) == SearchKind::Irace ? "for another iteration" : "to go on",
+              kind_of(plan_.search) == SearchKind::Irace ? "for another iteration" : "to continue",
               *least),
           name);
     }
@@ -302,7 +302,8 @@ Task DesignRunner::task_of(const EvaluationKey& key, const Experiment& experimen
 /// The last race and the tests may use candidates of any iteration.
 std::string DesignRunner::call_of(std::int64_t number) const {
   const auto known = call_texts_.find(number);
-  SWARMSMITH_ASSERT(known != call_texts_.end() || search_, "who is only tested is kept as a text");
+  SWARMSMITH_ASSERT(known != call_texts_.end() || search_,
+                    "the text of a design without a search is stored");
   return known != call_texts_.end() ? known->second
                                     : plan_.describe(search_->configuration(number)).call;
 }

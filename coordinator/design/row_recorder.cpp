@@ -75,7 +75,7 @@ void RowRecorder::record_iteration(const IterationStarted& started) {
 }
 
 Expected<void> RowRecorder::record_step(const RaceStep& step) {
-  SWARMSMITH_ASSERT(step.experiments_used >= design_.used, "what was used stays used");
+  SWARMSMITH_ASSERT(step.experiments_used >= design_.used, "the experiments used never decrease");
   design_.used = step.experiments_used;
   design_.best = candidate(step.best);
   design_.best_mean = to_score(step.mean_best);

@@ -21,7 +21,7 @@ void TargetCalls::finish() {
 }
 
 std::int64_t TargetCalls::pair_in_race(std::int64_t task) {
-  SWARMSMITH_ASSERT(task >= 1 && tests_ >= 0, "calls count from 1, and never back");
+  SWARMSMITH_ASSERT(task >= 1 && tests_ >= 0, "calls count upwards from 1");
   const std::int64_t pair = task + tests_;
   last_ = std::max(last_, pair);
   return pair;

@@ -231,10 +231,10 @@ void complain_of_conflicts(StoreReader& store, std::vector<std::string>& complai
 void complain_of_distrust(StoreReader& store, std::vector<std::string>& complaints) {
   for (const StoredCampaign& campaign : store.campaigns()) {
     if (campaign.state != "distrusted") continue;
-    complaints.push_back(fmt::format(
-        "campaign {}: stored scores are wrong, or may be: the coordinator made some of them again, "
-        "with other bits; see the events",
-        campaign.row.name));
+    complaints.push_back(
+        fmt::format("campaign {}: stored scores are wrong, or may be: the coordinator evaluated "
+                    "some of them again and got other bits; see the events",
+                    campaign.row.name));
   }
 }
 

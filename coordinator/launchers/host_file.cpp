@@ -46,7 +46,7 @@ class Reader {
     // ssh would take such a name for one of its options.
     if (host.name.starts_with('-') || host.name.find('=') != std::string::npos) {
       complain(words.front(),
-               "a line begins with the host's name, and `" + host.name + "` is none");
+               "a line must begin with the name of a host, and `" + host.name + "` is not one");
     }
     for (std::size_t i = 1; i < words.size(); ++i)
       read_setting(words[i], host);
@@ -80,7 +80,7 @@ class Reader {
     const auto place = std::ranges::find(kKeys, key) - kKeys.begin();
     if (sign == std::string_view::npos || place == 4) {
       complain(word, "`" + std::string(word.text) +
-                         "` is none of slots=N, program=PATH, key=PATH, " + "coordinator=PATH" +
+                         "` is not one of slots=N, program=PATH, key=PATH, " + "coordinator=PATH" +
                          did_you_mean(key, kKeys));
       return;
     }
@@ -90,12 +90,11 @@ class Reader {
       const auto [stop, error] = std::from_chars(value.data(), end, host.slots);
       const bool number = error == std::errc() && stop == end;
       if (number && host.slots >= 1 && host.slots <= kMostSlots) return;
-      complain(word,
-               "`slots` must be a number from 1 to 1024; this is `" + std::string(value) + "`");
+      complain(word, "`slots` must be a number from 1 to 1024, not `" + std::string(value) + "`");
       return;
     }
     if (!value.starts_with('/')) {
-      complain(word, "`" + key + "` must be a path from the root of that host; this is `" +
+      complain(word, "`" + key + "` must be an absolute path on that host, not `" +
                          std::string(value) + "`");
       return;
     }

@@ -31,7 +31,7 @@ Expected<LaunchOptions> local(std::string_view text, std::string_view number,
   const auto processes = number_in(number, kMostProcesses);
   if (!processes) {
     return wrong(text,
-                 "is none of: auto, N, local:N, ssh:HOSTFILE, slurm, slurm:JOBSxCPUS (N is a "
+                 "is not one of: auto, N, local:N, ssh:HOSTFILE, slurm, slurm:JOBSxCPUS (N is a "
                  "number of local worker processes, 1 to 1000)");
   }
   options.kind = LaunchOptions::Kind::Local;

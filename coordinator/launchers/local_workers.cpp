@@ -86,7 +86,7 @@ void LocalWorkers::on_ended(Worker& worker, int status, TimePoint now) {
     const int code = WEXITSTATUS(status);
     trouble_ = "workers end as soon as they are started (" + command_.front() + ", exit code " +
                std::to_string(code) + "); " +
-               (code == 0 ? "is it swarmsmith-worker?" : "install it again, or see what it says");
+               (code == 0 ? "is it swarmsmith-worker?" : "install it again, or read its output");
   }
   if (lived) worker.backoff.reset();
   worker.start_at = lived ? now : now + worker.backoff.next();

@@ -26,7 +26,8 @@ std::string text_of(const SlurmScript& script) {
   const SlurmOptions& options = script.options;
   const std::string file = (script.folder / "worker.sh").string();
   std::string text = "#!/bin/sh\n";
-  text += "# Workers for a campaign, one a job; written by `swarmsmith run`, anew at each start.\n";
+  text +=
+      "# Workers for a campaign, one per job; `swarmsmith run` writes this file at each start.\n";
   text += "# More workers, at any time:   sbatch --array=0-15 " + shell_line({file}) + "\n";
   text += "# Fewer, at any time:          scancel JOB   (nothing is lost)\n";
   text += directive({"--job-name=" + script.job_name});

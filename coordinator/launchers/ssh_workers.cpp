@@ -58,7 +58,7 @@ std::string reason(int status, const std::string& said, bool sent) {
     case 0:
       return "the worker was drained";
     case kBuildRefused:
-      return sent ? "bundle and coordinator are different builds (`./dev bundle` makes it anew)"
+      return sent ? "bundle and coordinator are different builds (`./dev bundle` makes it again)"
                   : "the worker there and the coordinator are different builds; it is not started "
                     "again";
     case kCannotRun:
@@ -107,10 +107,10 @@ SshWorkers::SshWorkers(SshWorkersOptions options)
 Expected<SshWorkers> SshWorkers::start(SshWorkersOptions options) {
   const auto ssh = find_program(options.ssh);
   if (!ssh) {
-    return unexpected(ErrorKind::NotFound,
-                      "ssh is not here; install the package openssh-client, or start workers "
-                      "otherwise",
-                      options.ssh);
+    return unexpected(
+        ErrorKind::NotFound,
+        "ssh is not installed; install the package openssh-client, or start workers in another way",
+        options.ssh);
   }
   const bool all_sent = std::ranges::all_of(
       options.hosts, [&](const SshHost& host) { return is_sent_to(options, host); });
@@ -191,7 +191,7 @@ void SshWorkers::on_sent(Worker& worker, bool well, TimePoint now) {
 
 void SshWorkers::on_lacking(Worker& worker, const WorkerBundle& bundle, TimePoint now) {
   if (std::exchange(worker.sent, false)) {
-    worker.trouble = "the worker was sent there, and is not to be found: " + worker.said;
+    worker.trouble = "the worker was sent there, but cannot be found: " + worker.said;
     worker.start_at = now + worker.backoff.next();
     return;
   }

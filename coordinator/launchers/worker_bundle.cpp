@@ -53,10 +53,11 @@ Expected<void> check(const fs::path& archive) {
                       archive.string());
   }
   if (end->signal == 0 && end->exit_code == 0) return {};
-  return unexpected(ErrorKind::Unavailable,
-                    "the bundle is damaged; make it anew (`./dev bundle`), or get it again (" +
-                        line(end->errors.text) + ")",
-                    archive.string());
+  return unexpected(
+      ErrorKind::Unavailable,
+      "the bundle is damaged; make it again (`./dev bundle`), or download it again (" +
+          line(end->errors.text) + ")",
+      archive.string());
 }
 
 }  // namespace

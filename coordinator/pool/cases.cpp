@@ -27,7 +27,8 @@ void Cases::open(Task task, std::optional<Said> said, bool audit) {
 std::optional<Task> Cases::next() {
   std::deque<PackedKey>& queue = urgent_.empty() ? audits_ : urgent_;
   if (out_ || queue.empty()) return std::nullopt;
-  SWARMSMITH_ASSERT(open_.contains(queue.front()), "what waits for the referee is a case");
+  SWARMSMITH_ASSERT(open_.contains(queue.front()),
+                    "every task that waits for the referee has a case");
   out_ = queue.front();
   queue.pop_front();
   return open_.at(*out_).task;

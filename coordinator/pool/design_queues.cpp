@@ -61,7 +61,7 @@ void DesignQueues::change(Design& design, const Change& make) {
   put(by_outstanding_, design.by_outstanding, is_ready, design.outstanding(), design);
   put(by_ahead_, design.by_ahead, !design.held && !design.ahead.empty(), design.ahead_leased,
       design);
-  SWARMSMITH_ASSERT(by_had_.size() == by_outstanding_.size(), "both orders have the ready designs");
+  SWARMSMITH_ASSERT(by_had_.size() == by_outstanding_.size(), "both orders hold the ready designs");
   if (!design.held) {
     wanted_ += design.wanted.size();
     ahead_ += design.ahead.size();
@@ -98,7 +98,7 @@ void DesignQueues::on_leased(Design& design, bool ahead, std::uint64_t cost_us) 
 
 void DesignQueues::on_unleased(Design& design, bool ahead) {
   std::size_t& leased = ahead ? design.ahead_leased : design.wanted_leased;
-  SWARMSMITH_ASSERT(leased > 0, "a lease that ends was counted");
+  SWARMSMITH_ASSERT(leased > 0, "every lease that ends was counted");
   change(design, [&] { --leased; });
 }
 
@@ -143,14 +143,14 @@ void DesignQueues::forget(std::uint32_t campaign) {
     const Design& design = entry.second;
     if (entry.first.campaign != campaign) return false;
     SWARMSMITH_ASSERT(!design.by_had && !design.by_ahead && design.outstanding() == 0,
-                      "a campaign that is forgotten has no tasks");
+                      "a campaign is removed only without tasks");
     return true;
   });
 }
 
 bool DesignQueues::is_urgent(const Design& design, std::size_t free,
                              std::uint64_t allowance_us) const {
-  SWARMSMITH_ASSERT(!by_had_.empty(), "both orders have the ready designs");
+  SWARMSMITH_ASSERT(!by_had_.empty(), "both orders hold the ready designs");
   return design.wanted.size() <= free && design.had_us <= by_had_.begin()->rank + allowance_us;
 }
 

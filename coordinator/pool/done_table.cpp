@@ -25,7 +25,7 @@ DoneEntry DoneTable::entry_of(PackedKey key, EvaluationStatus status, const Meas
 }
 
 std::size_t DoneTable::Outcomes::place_of(PackedKey key) const {
-  SWARMSMITH_ASSERT(size < entries.size(), "a search for a place ends at a free one");
+  SWARMSMITH_ASSERT(size < entries.size(), "the table always has a free place");
   const std::size_t mask = entries.size() - 1;
   std::size_t at = static_cast<std::size_t>(mix64(key)) & mask;
   while (entries[at].key != 0 && entries[at].key != key)

@@ -68,7 +68,7 @@ void LeaseTable::remove(PackedKey key, WorkerNumber by) {
   SWARMSMITH_ASSERT(at != records_.end(), "a task that is removed is in the table");
   TaskRecord& record = at->second;
   if (!record.lease) {
-    SWARMSMITH_ASSERT(!record.second, "a second copy stands beside a first lease");
+    SWARMSMITH_ASSERT(!record.second, "a second copy needs a first lease");
     leave_queue(record);
   } else {
     for (const std::optional<Lease>* lease : {&record.second, &record.lease}) {
@@ -81,7 +81,7 @@ void LeaseTable::remove(PackedKey key, WorkerNumber by) {
     by_age_.erase(record.place);
     queues_.on_unleased(*record.design, record.task.ahead);
     if (!record.task.ahead) --wanted_leased_;
-    SWARMSMITH_ASSERT(wanted_leased_ <= leased(), "leases of what is wanted are counted");
+    SWARMSMITH_ASSERT(wanted_leased_ <= leased(), "no more wanted leases than leases");
   }
   records_.erase(at);
 }
@@ -163,7 +163,7 @@ Lease LeaseTable::leased_to(TaskRecord& record, WorkerNumber worker, TimePoint n
 void LeaseTable::grant(TaskRecord& record, WorkerNumber worker, TimePoint now,
                        std::uint64_t cost_us) {
   SWARMSMITH_ASSERT(!record.lease && !record.parked,
-                    "a task that is granted has no lease, and is not before the referee");
+                    "a granted task has no lease, and the referee does not have it");
   queues_.on_leased(*record.design, record.task.ahead, cost_us);
   leave_queue(record);
   if (record.attempts == 0 && !record.task.ahead) {
@@ -206,14 +206,14 @@ bool LeaseTable::requeue(TaskRecord& record, WorkerNumber worker, bool at_front)
   by_age_.erase(record.place);
   queues_.on_unleased(*record.design, record.task.ahead);
   if (!record.task.ahead) --wanted_leased_;
-  SWARMSMITH_ASSERT(wanted_leased_ <= leased(), "leases of what is wanted are counted");
+  SWARMSMITH_ASSERT(wanted_leased_ <= leased(), "no more wanted leases than leases");
   // Normally at the front: its race asked for it before all other tasks that it waits for.
   enter_queue(record, at_front);
   return true;
 }
 
 void LeaseTable::park(TaskRecord& record) {
-  SWARMSMITH_ASSERT(!record.lease, "a task that is parked has no lease");
+  SWARMSMITH_ASSERT(!record.lease, "a parked task has no lease");
   if (record.parked) return;
   leave_queue(record);
   record.parked = true;

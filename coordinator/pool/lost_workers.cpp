@@ -30,7 +30,7 @@ void LostWorkers::take_back_charges(WorkerEntry& entry) {
 }
 
 void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoint now) {
-  SWARMSMITH_ASSERT(entry.connected, "a worker is lost once for each time that it comes");
+  SWARMSMITH_ASSERT(entry.connected, "only a connected worker can be lost");
   const std::list<PackedKey>& leases = book_->leases.leases_of(entry.number);
   const std::vector<PackedKey> keys(leases.begin(), leases.end());
   const std::size_t suspects = static_cast<std::size_t>(entry.hello.slots) + kUnreported;
@@ -79,7 +79,8 @@ void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoi
 
 /// Whether the loss counts against a task that only this worker had and that may have been running.
 LostWorkers::Blame LostWorkers::blame(WorkerEntry& entry, TaskRecord& record, Loss loss) {
-  SWARMSMITH_ASSERT(record.lease && !record.second, "only the only holder's loss says something");
+  SWARMSMITH_ASSERT(record.lease && !record.second,
+                    "only the loss of a task's single holder is blamed");
   if (!entry.principal->is_proven()) {
     ++record.strays;
     return Blame::None;

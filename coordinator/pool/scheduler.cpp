@@ -20,7 +20,7 @@ Scheduler::Scheduler(SchedulerOptions options)
 void Scheduler::add(std::vector<Task> tasks) {
   for (Task& task : tasks) {
     if (TaskRecord* record = book_->leases.find(key_of(task)); record != nullptr) {
-      SWARMSMITH_ASSERT(record->task.ahead && !task.ahead, "a task is wanted once");
+      SWARMSMITH_ASSERT(record->task.ahead && !task.ahead, "a race asks for a task once");
       book_->leases.promote(*record, book_->now);
       continue;
     }

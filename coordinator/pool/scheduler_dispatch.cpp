@@ -162,7 +162,7 @@ void Scheduler::dispatch_alone(TimePoint now) {
     entry.reserved = true;
     if (!book_->leases.leases_of(number).empty()) continue;
     TaskRecord* record = book_->leases.next_alone();
-    SWARMSMITH_ASSERT(record != nullptr, "workers are kept free for a task that is there");
+    SWARMSMITH_ASSERT(record != nullptr, "a worker is kept free only for an existing task");
     book_->leases.grant(*record, number, now, cost_us(record->task.campaign));
     SendTasks message{entry.peer, entry.hello.incarnation, {}};
     put_task(entry, *record, message, now);
@@ -219,7 +219,7 @@ bool Scheduler::fill(WorkerEntry& entry, std::int64_t share, TimePoint now) {
 /// Adds a task to the message, and sends the message when it is full.
 void Scheduler::put_task(WorkerEntry& entry, const TaskRecord& record, SendTasks& message,
                          TimePoint now) {
-  SWARMSMITH_ASSERT(entry.usable(), "leases go to workers that are there and believed");
+  SWARMSMITH_ASSERT(entry.usable(), "leases go only to connected, trusted workers");
   const Lease& lease =
       record.second && record.second->worker == entry.number ? *record.second : *record.lease;
   message.tasks.push_back({record.task, key_of(record.task), lease.attempt,

@@ -45,7 +45,7 @@ void TaskBook::note_attempt(PackedKey key, const Lease& lease, AttemptOutcome ou
 void TaskBook::note_attempt(TaskRecord& record, WorkerNumber worker, AttemptOutcome outcome,
                             TimePoint at) {
   const Lease* lease = record.lease_of(worker);
-  SWARMSMITH_ASSERT(lease != nullptr, "an attempt is that of a lease");
+  SWARMSMITH_ASSERT(lease != nullptr, "an attempt belongs to a lease");
   note_attempt(key_of(record.task), *lease, outcome, at);
 }
 

@@ -202,7 +202,7 @@ void Trust::audit(const TaskRecord& record, const WorkerEntry& entry, const Resu
 void Trust::update_room(Principal& principal) {
   for (const WorkerNumber number : principal.workers) {
     WorkerEntry* entry = workers_->of_number(number);
-    SWARMSMITH_ASSERT(entry != nullptr, "a worker that is forgotten leaves its principal");
+    SWARMSMITH_ASSERT(entry != nullptr, "a removed worker is removed from its principal, too");
     set_credit(*entry, entry->credit);
   }
 }
@@ -276,7 +276,7 @@ void Trust::convict(Principal& principal, WorkerNumber worker, const std::string
                     std::to_string(unchecked) + " results of " + principal.name +
                     " are stored without a check. `swarmsmith recover STORE --without-key \"" +
                     key_of_principal(principal.name) +
-                    "\" -o NEW.db` makes a store without what it said, and the campaign goes on "
+                    "\" -o NEW.db` makes a store without its results, and the campaign continues "
                     "from there with --store NEW.db",
                 true);
   }
@@ -411,7 +411,7 @@ std::vector<std::string> Trust::forgive(std::string_view word, const std::string
       if (entry.connected) {
         book_->act(
             SendNotice{entry.peer, entry.hello.incarnation,
-                       "a person let this worker work again: it is in quarantine no longer"});
+                       "a person let this worker work again: it is no longer in quarantine"});
       }
     }
     update_room(principal);
@@ -430,7 +430,7 @@ std::string sentence_of_quarantine(const Principal& principal, const Principal::
 }
 
 void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
-  SWARMSMITH_ASSERT(!entry.quarantined, "nothing is taken from a worker in quarantine");
+  SWARMSMITH_ASSERT(!entry.quarantined, "a worker in quarantine gives no results");
   const std::uint32_t campaign = record.task.campaign;
   ++entry.done;
   audit(record, entry, result);

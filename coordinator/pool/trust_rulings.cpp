@@ -33,7 +33,7 @@ std::string text_of(const Said& said) {
 std::string text_beside(const Said& said, const Ruling& ruling) {
   const bool is_same = said.what == Said::What::Score && ruling.kind == Ruling::Kind::Score &&
                        said.measured.score == ruling.measured.score;
-  return text_of(ruling) + (is_same ? ", with another end of the run" : "");
+  return text_of(ruling) + (is_same ? ", with another final state" : "");
 }
 
 }  // namespace
@@ -257,8 +257,8 @@ void Trust::compare_with_stored(const Case& ruled, const Ruling& ruling) {
                            text_of(said) + ", and this host gives " + text_of(ruling) +
                            ". `swarmsmith show STORE " + to_string(ruled.task.key) +
                            "` names the worker that gave it; `swarmsmith recover STORE "
-                           "--without-key KEY -o NEW.db` makes a store without what its key said, "
-                           "and the campaign goes on from there with --store NEW.db",
+                           "--without-key KEY -o NEW.db` makes a store without the results of its "
+                           "key, and the campaign continues from there with --store NEW.db",
                        true);
   }
 }
@@ -269,11 +269,11 @@ void Trust::let_go(const Said& said) {
   if (principal == nullptr || said.taken) return;
   if (said.on_trial) {
     Principal::Standing& standing = principal->standing(said.worker);
-    SWARMSMITH_ASSERT(standing.on_trial > 0, "a result on trial was counted");
+    SWARMSMITH_ASSERT(standing.on_trial > 0, "every result on trial was counted");
     --standing.on_trial;
     return;
   }
-  SWARMSMITH_ASSERT(principal->claims > 0, "a claim before the referee was counted");
+  SWARMSMITH_ASSERT(principal->claims > 0, "every claim before the referee was counted");
   if (principal->claims-- == Principal::kMostClaims) update_room(*principal);
 }
 

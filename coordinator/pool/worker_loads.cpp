@@ -54,7 +54,7 @@ WorkerLoads::Place WorkerLoads::lease(WorkerNumber worker, PackedKey key, bool a
 void WorkerLoads::end(WorkerNumber worker, Place place, bool ahead) {
   change(worker, [&](WorkerLoad& load) {
     load.leases.erase(place);
-    SWARMSMITH_ASSERT(!ahead || load.ahead > 0, "a lease that ends is what it was");
+    SWARMSMITH_ASSERT(!ahead || load.ahead > 0, "a look-ahead lease was counted as one");
     if (ahead) --load.ahead;
   });
 }

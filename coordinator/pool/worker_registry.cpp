@@ -61,7 +61,7 @@ void WorkerRegistry::connect(WorkerEntry& entry, PeerId peer, TimePoint now) {
 }
 
 void WorkerRegistry::disconnect(WorkerEntry& entry) {
-  SWARMSMITH_ASSERT(entry.connected, "who is disconnected was connected");
+  SWARMSMITH_ASSERT(entry.connected, "only a connected worker can be disconnected");
   entry.connected = false;
   entry.reserved = false;
   by_peer_.erase(entry.peer);
@@ -69,7 +69,7 @@ void WorkerRegistry::disconnect(WorkerEntry& entry) {
     --quarantined_;
   } else {
     slots_ -= entry.hello.slots;
-    SWARMSMITH_ASSERT(slots_ >= 0, "the total has the slots of who is there");
+    SWARMSMITH_ASSERT(slots_ >= 0, "the total includes the slots of all connected workers");
   }
 }
 

@@ -54,14 +54,14 @@ class Reader {
     const std::string word = text(row, column);
     if (word.empty()) return 0;
     const auto value = integer_in(word);
-    if (!value) complain(row, "column " + column + " wants an integer, not `" + word + "`");
+    if (!value) complain(row, "column " + column + " must be an integer, not `" + word + "`");
     return value.value_or(0);
   }
   std::optional<double> number(const CsvRow& row, const std::string& column) {
     const std::string word = text(row, column);
     if (word.empty()) return std::nullopt;
     const auto value = number_in(word);
-    if (!value) complain(row, "column " + column + " wants a number, not `" + word + "`");
+    if (!value) complain(row, "column " + column + " must be a number, not `" + word + "`");
     return value;
   }
   /// An infinite cost means a rejected run.
@@ -99,7 +99,7 @@ void read_parameters(Reader reader, IraceLog& log) {
   for (const CsvRow& row : reader.table().rows) {
     const std::string type = reader.text(row, "type");
     if (type.size() != 1 || std::string("cori").find(type) == std::string::npos) {
-      reader.complain(row, "column type wants c, o, i or r, not `" + type + "`");
+      reader.complain(row, "column type must be c, o, i or r, not `" + type + "`");
       continue;
     }
     log.parameters.push_back({.name = reader.text(row, "name"),
@@ -141,7 +141,7 @@ void read_configurations(Reader reader, IraceLog& log) {
   const std::size_t columns = reader.table().columns.size();
   for (const CsvRow& row : reader.table().rows) {
     if (columns != log.parameters.size() + 2) {
-      reader.complain(row, "wants id, parent and a column for each parameter");
+      reader.complain(row, "needs columns id, parent and one for each parameter");
       return;
     }
     const auto id = integer_in(row.cells[0]);

@@ -69,7 +69,7 @@ std::optional<std::string> complaint_about(const std::string& mission, const std
         kBuiltIn, [&](const std::string& name) { return name.starts_with(mission); });
     return meant == kBuiltIn.end()
                ? fmt::format(
-                     "there is no mission `{0}` here; name the one that it is: --mission {0}=NEW, "
+                     "there is no mission `{0}` here; say which one it is: --mission {0}=NEW, "
                      "or --mission {0}={0} to keep the name",
                      mission)
                : fmt::format(

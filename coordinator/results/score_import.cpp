@@ -100,11 +100,11 @@ Expected<const KnownDesign*> Importer::design_of_row(const CsvRow& row) const {
   std::optional<std::int64_t> design;
   if (const std::string word = cell(row, "design"); !word.empty()) {
     design = id_in(word, 'd');
-    if (!design) return bad_input("column design wants d3 or 3, not `" + word + "`");
+    if (!design) return bad_input("column design must be d3 or 3, not `" + word + "`");
   }
   if (const std::string word = cell(row, "candidate"); !word.empty()) {
     const auto candidate = id_in(word, 'c');
-    if (!candidate) return bad_input("column candidate wants c812 or 812, not `" + word + "`");
+    if (!candidate) return bad_input("column candidate must be c812 or 812, not `" + word + "`");
     const std::int64_t its = design_of(CandidateId{*candidate}).value;
     if (design && *design != its) {
       return bad_input(fmt::format("c{} is of design d{}, not d{}", *candidate, its, *design));
@@ -181,7 +181,7 @@ Expected<double> Importer::read_score(const CsvRow& row, const std::string& miss
   const std::string& word = score.empty() ? cost : score;
   const auto value = number_in(word);
   if (!value || !std::isfinite(*value)) {
-    return bad_input(fmt::format("column {} wants a finite number, not `{}`",
+    return bad_input(fmt::format("column {} must be a finite number, not `{}`",
                                  score.empty() ? "cost" : "score", word));
   }
   if (is_too_large(*value)) {
@@ -201,7 +201,7 @@ Expected<std::optional<std::int64_t>> Importer::read_integer(const CsvRow& row,
   const auto value = integer_in(word);
   if (value && *value >= least) return value;
   return bad_input(
-      fmt::format("column {} wants an integer from {} on, not `{}`", column, least, word));
+      fmt::format("column {} must be an integer from {} on, not `{}`", column, least, word));
 }
 
 Expected<Score> Importer::read_values(const CsvRow& row, const std::string& mission) const {
@@ -224,7 +224,7 @@ Expected<Score> Importer::read_values(const CsvRow& row, const std::string& miss
   if (const std::string word = cell(row, "time"); !word.empty()) {
     const auto time = number_in(word);
     if (!time || !std::isfinite(*time) || *time < 0) {
-      return bad_input("column time wants a number from 0 on, not `" + word + "`");
+      return bad_input("column time must be a number from 0 on, not `" + word + "`");
     }
     read.time = *time;
   }

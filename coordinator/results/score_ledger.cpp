@@ -93,7 +93,7 @@ EvaluationKey ScoreLedger::add(const ScorePlace& place, const Measured& measured
 
 void ScoreLedger::replace(const ScorePlace& place, double score) {
   const auto found = at(place);
-  SWARMSMITH_ASSERT(found != scores_.end(), "what is replaced is known");
+  SWARMSMITH_ASSERT(found != scores_.end(), "only a known score can be replaced");
   LedgerScore changed = found->second;
   changed.measured = {.score = score};
   scores_.insert_or_assign(found->first, changed);

@@ -259,7 +259,7 @@ Expected<std::string> Coordinator::obey(std::uint32_t index, const pb::Command& 
   campaign.sees_no_further = false;
   const std::string name = to_string(row.design);
   if (row.kind == CommandKind::Cancel) return name + " is cancelled";
-  return name + " gets " + std::to_string(row.budget) + " experiments more";
+  return name + " gets " + std::to_string(row.budget) + " more experiments";
 }
 
 /// A command to the pool: every store gets the rows, and the answer waits for the first commit.
@@ -549,7 +549,8 @@ void Coordinator::append(std::uint32_t index) {
 
 void Coordinator::on_appended(std::uint32_t index, std::uint64_t ticket) {
   Campaign& campaign = campaigns_[index];
-  SWARMSMITH_ASSERT(!campaign.unappended.empty(), "a ticket belongs to rows that were given out");
+  SWARMSMITH_ASSERT(!campaign.unappended.empty(),
+                    "a ticket belongs to rows that were sent to the store");
   SWARMSMITH_ASSERT(campaign.appended.empty() || campaign.appended.back().ticket < ticket,
                     "tickets count up");
   campaign.appended.push_back(std::move(campaign.unappended.front()));

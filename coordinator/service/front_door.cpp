@@ -39,7 +39,8 @@ Expected<std::unique_ptr<ServerSocket>> open_front_door(ServiceOptions& options)
   auto socket = ServerSocket::bind(options.bind, options.socket, std::move(options.keys));
   if (socket && !has_keys && !options.insecure_plaintext && !(*socket)->asks_for_user()) {
     log_event(LogLevel::Warning, "coordinator",
-              "this system does not say whose a connection is: other users of this host can send "
+              "this system does not tell which user opens a connection: other users of this host "
+              "can send "
               "results and give commands; `swarmsmith keygen` makes keys",
               {{"address", options.bind}});
   }

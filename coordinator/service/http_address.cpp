@@ -70,7 +70,7 @@ Expected<std::string> read_token(const std::filesystem::path& file) {
   const bool plain = std::ranges::all_of(token, [](char c) { return c > ' ' && c < 0x7f; });
   if (token.size() < kShortestToken || token.size() > kLongestToken || !plain) {
     return bad_input(
-        "a token is one line of 16 to 512 characters without spaces; make one by: head -c 32 "
+        "a token is one line of 16 to 512 characters without spaces; make one with: head -c 32 "
         "/dev/urandom | base64",
         file.string());
   }

@@ -190,7 +190,8 @@ class Pages final : public HttpServer {
     if (is_other_user(request)) return refuse_other_user(request, response);
     // Otherwise a page elsewhere could embed pictures from here and make this program compute.
     if (site.is_api(request.path) && is_of_other_page(request))
-      return refuse(request, response, 403, "other_origin", "a page of another origin may not ask");
+      return refuse(request, response, 403, "other_origin",
+                    "requests from a page of another origin are refused");
     if (is_act) {
       const std::string& token = options_.token.empty() ? options_.act_token : options_.token;
       if (!has_token_of(request, token)) return ask_for_token(request, response);
@@ -270,7 +271,7 @@ Expected<std::unique_ptr<HttpServer>> HttpServer::start(HttpOptions options) {
   const std::string where = to_string(options.address);
   if (options.token.empty() && !is_loopback(options.address.host)) {
     return bad_input(
-        "other hosts could read these pages: give a token by --http-token-file, or listen on "
+        "other hosts could read these pages: give a token with --http-token-file, or listen on "
         "127.0.0.1",
         where);
   }

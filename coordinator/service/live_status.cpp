@@ -211,8 +211,9 @@ std::string sentence_of_forgiven(const std::vector<std::string>& names) {
   for (const std::string& name : names)
     text += (text.empty() ? "" : ", ") + name;
   return text + (names.size() > 1 ? " are" : " is") +
-         " in quarantine no longer: its first results are checked as those of a new worker; one "
-         "that was turned away has to be started again";
+         " no longer in quarantine: the first results are checked like those of new workers; "
+         "restart "
+         "workers that were turned away";
 }
 
 Expected<std::string> not_in_quarantine(const std::string& word,

@@ -41,7 +41,7 @@ std::string listed(std::span<const DesignId> designs) {
 
 std::string sentence_of_pause(CommandKind kind, std::span<const CommandRow> rows) {
   const std::string state = kind == CommandKind::Pause ? "paused" : "resumed";
-  if (rows.empty()) return "nothing to do: every design is over, or " + state + " before";
+  if (rows.empty()) return "nothing to do: every design is over, or already " + state;
   std::vector<DesignId> designs;
   for (const CommandRow& row : rows)
     designs.push_back(row.design);

@@ -128,7 +128,7 @@ class Loop final : public Service {
     for (const PeerId peer : cut)
       coordinator_.on_cut_off(peer, now);
     log_event(
-        LogLevel::Info, "coordinator", "list of clients taken",
+        LogLevel::Info, "coordinator", "list of clients loaded",
         {{"clients", std::to_string(clients->size())}, {"cut_off", std::to_string(cut.size())}});
   }
 

@@ -66,7 +66,7 @@ Expected<Domain> numeric_domain(const Json& object, bool whole, const std::strin
   const auto step = object.find("q");
   if (step != object.end() && !step->is_null()) {
     return bad_input(
-        "steps (\"q\") are not there in irace: leave \"q\" out, or list the values "
+        "irace has no steps (\"q\"): leave \"q\" out, or list the values "
         "of an ordinal parameter",
         where);
   }
@@ -94,7 +94,7 @@ Expected<Domain> domain_of(const Json& object, const std::string& type, const st
     return Categorical{{std::move(*value)}};
   }
   return bad_input("the type \"" + type +
-                       "\" is not there in irace: write uniform_float, uniform_int, categorical, "
+                       "\" does not exist in irace: write uniform_float, uniform_int, categorical, "
                        "ordinal or constant",
                    where);
 }
@@ -141,8 +141,8 @@ Expected<void> ConfigSpaceReader::read_parameter(const Json& object, const std::
   auto domain = domain_of(object, *type, where);
   if (!domain) return Unexpected(domain.error());
   if (has_weights(object)) {
-    builder_.warn(
-        where, "the weights of '" + *name + "' are left out: irace begins with all values alike");
+    builder_.warn(where,
+                  "the weights of '" + *name + "' are left out: irace starts with equal weights");
   }
   ForeignParameter parameter{
       *name, options_.aclib ? *name : "--" + *name + " ", std::move(*domain), {}, where};

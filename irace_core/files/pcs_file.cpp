@@ -156,7 +156,7 @@ Expected<void> PcsReader::read_parameter(const std::string& name, LineReader lin
   if (!type.empty() && std::ranges::find(kTypes, type) == kTypes.end()) {
     return before_type.expected(
         "{values}, [bounds], or one of categorical, ordinal, integer and "
-        "real, behind the name '" +
+        "real, after the name '" +
         name + "'");
   }
   line.skip_blanks();
@@ -240,8 +240,8 @@ Expected<void> PcsReader::read_condition(const Later& from) {
   const std::string where = source_.file + ":" + std::to_string(from.line);
   if (has_or && from.text.find("&&") != std::string::npos) {
     return bad_input(
-        "a condition with both && and || is not read, since tools differ in what "
-        "comes first: write the parts with && as lines of their own, or write the "
+        "a condition with both && and || is not read, since tools differ in their order: write the "
+        "parts with && as lines of their own, or write the "
         "parameters in irace's format (`swarmsmith irace --check` prints it)",
         where);
   }

@@ -288,7 +288,7 @@ Expected<Statement> Parser::statement() {
     if (!tree) return Unexpected(tree.error());
   } else if (token_.is("->")) {
     if (auto moved = advance(); !moved) return Unexpected(moved.error());
-    if (token_.kind != TokenKind::Name) return found_instead_of("a name behind it");
+    if (token_.kind != TokenKind::Name) return found_instead_of("a name after it");
     statement.name = token_.text;
     if (auto moved = advance(); !moved) return Unexpected(moved.error());
   }

@@ -169,7 +169,7 @@ class ScenarioReader {
       const auto value = r::evaluate(statement.value, environment_);
       if (!value) return complain(file, value.error());
       return complain(file, statement.place,
-                      "this value goes nowhere; expected `option = value` or " +
+                      "this value is not assigned to an option; expected `option = value` or " +
                           std::string(kInclude) + "(\"file\")");
     }
     const auto name = call->arguments.size() == 1
@@ -187,7 +187,7 @@ class ScenarioReader {
     constexpr std::size_t kMostFiles = 1000;
     const fs::path included = absolute_path(name, top_.parent_path());
     if (std::ranges::find(open_, included) != open_.end()) {
-      return complain(file, where, included.string() + " includes itself, in a circle");
+      return complain(file, where, included.string() + " includes itself");
     }
     if (++files_ > kMostFiles) return complain(file, where, "includes too many files");
     const auto text = surroundings_.read(included);

@@ -11,7 +11,7 @@
 namespace swarmsmith {
 namespace {
 
-constexpr std::string_view kParameters = R"(# What is tuned, a parameter a line:
+constexpr std::string_view kParameters = R"(# What is tuned, one parameter per line:
 #
 #   name  "switch"  type  (domain)  | condition
 #
@@ -20,7 +20,7 @@ constexpr std::string_view kParameters = R"(# What is tuned, a parameter a line:
 # type       c  one of some values without an order   (a, b, "with, comma")
 #            o  one of some values in an order        (low, middle, high)
 #            i  a whole number                        (1, 100)
-#            r  a number                              (0, 1), with so many decimals as `digits` says
+#            r  a number                              (0, 1), with as many decimals as `digits` says
 #            i,log and r,log: as likely from 1 to 10 as from 10 to 100; the domain is positive
 # condition  of R: the parameter exists only where it holds; most need none
 #
@@ -31,7 +31,7 @@ strength   "--strength "   r      (0, 5)
 swaps      "--swaps "      i,log  (1, 1000)  | algorithm == "swap"
 restart    "--restart "    o      (never, rarely, often)
 
-# Combinations that must not be tried, one a line:
+# Combinations that must not be tried, one per line:
 [forbidden]
 algorithm == "climb" & restart == "never"
 
@@ -40,7 +40,7 @@ digits = 2
 )";
 
 constexpr std::string_view kTargetRunner = R"(#!/bin/sh
-# Runs what is tuned once, and prints its cost: a number, the smaller the better.
+# Runs your program once, and prints its cost: a number, the smaller the better.
 #
 #   target-runner ID INSTANCE_ID SEED INSTANCE SWITCHES...
 #
@@ -51,7 +51,7 @@ constexpr std::string_view kTargetRunner = R"(#!/bin/sh
 # SWITCHES     the configuration: switches and values of parameters.txt
 #
 # With boundMax in the scenario the bound stands before SWITCHES; with maxTime the time of the run
-# must follow the cost. What else is printed is an error (on standard error it is for people; but
+# must follow the cost. Any other output is an error (on standard error it is for people; but
 # R's irace reads that, too), and so is an exit status other than 0. `Inf` as a cost means: never
 # try this configuration again.
 set -eu
@@ -59,12 +59,12 @@ seed=$3
 instance=$4
 shift 4
 
-# Here your own program would be run, for instance:
+# Run your own program here, for instance:
 #
 #   cost=$(solver --instance "$instance" --seed "$seed" "$@" 2>/dev/null | tail -n 1)
 #   echo "$cost"
 #
-# In its place, this example has a formula with a little noise.
+# Instead, this example computes a formula with a little noise.
 algorithm='' strength=0 swaps=0 restart=''
 while [ $# -gt 0 ]; do
   case $1 in
@@ -91,7 +91,7 @@ awk -v seed="$seed" -v size="$instance" -v algorithm="$algorithm" -v strength="$
 )";
 
 constexpr std::string_view kInstances =
-    R"(# What each configuration is tried on, an instance a line. The whole line goes to the target-runner;
+    R"(# What each configuration is tried on, one instance per line. The whole line goes to the target-runner;
 # with trainInstancesDir in the scenario, that folder is put before it.
 10
 20
@@ -101,8 +101,8 @@ constexpr std::string_view kInstances =
 )";
 
 constexpr std::string_view kConfigurations =
-    R"(# Configurations to begin with, for instance the defaults: the names of the parameters, then a
-# configuration a line. NA stands for a parameter whose condition does not hold.
+    R"(# Configurations to start with, for instance the defaults: the names of the parameters, then one
+# configuration per line. NA stands for a parameter whose condition does not hold.
 algorithm  strength  swaps  restart
 climb      1.00      NA     often
 swap       2.50      100    rarely

@@ -32,7 +32,7 @@ double pseudo_median(std::span<const double> differences) {
 /// defined there, `ties` is the sum(u^3 - u).
 double approximate_p(double v, double n, double ties) {
   const double variance = n * (n + 1) * (2 * n + 1) / 24 - ties / 48;
-  SWARMSMITH_ASSERT(variance > 0, "even equal ranks leave the signs to chance");
+  SWARMSMITH_ASSERT(variance > 0, "the variance is positive, even with tied ranks");
   double z = v - n * (n + 1) / 4;
   const double correction = z > 0 ? 0.5 : (z < 0 ? -0.5 : 0.0);
   z = (z - correction) / std::sqrt(variance);
@@ -131,7 +131,7 @@ TestResult friedman_test(const RankTable& table, std::span<const std::size_t> co
 
 PairedResult wilcoxon_test(std::span<const double> first, std::span<const double> second,
                            double alpha) {
-  SWARMSMITH_ASSERT(first.size() == second.size(), "costs come in pairs");
+  SWARMSMITH_ASSERT(first.size() == second.size(), "both have the same number of costs");
   std::vector<double> differences;
   bool never_worse = true;
   bool never_better = true;

@@ -15,7 +15,7 @@ void normalise(std::span<double> probabilities) {
   double sum = 0;
   for (const double p : probabilities)
     sum += p;
-  SWARMSMITH_ASSERT(sum > 0, "some value can be drawn");
+  SWARMSMITH_ASSERT(sum > 0, "at least one value has a probability above 0");
   for (double& p : probabilities)
     p /= sum;
 }
@@ -117,7 +117,7 @@ double restart_sd(double sd, double initial, std::int64_t new_configurations,
 /// irace facts, 6.3: rank r gets E - r + 1 of E (E + 1) / 2 tickets. The arithmetic is in integers,
 /// so that rounding has no influence.
 std::size_t draw_parent(std::size_t elites, Rng& rng) {
-  SWARMSMITH_ASSERT(elites >= 1, "a parent is an elite");
+  SWARMSMITH_ASSERT(elites >= 1, "every parent is an elite");
   auto ticket = static_cast<std::int64_t>(rng.below(elites * (elites + 1) / 2));
   for (std::size_t rank = 0;; ++rank) {
     ticket -= static_cast<std::int64_t>(elites - rank);
@@ -217,7 +217,7 @@ double SamplingModels::draw(std::size_t parameter, const ParameterModel& model,
   if (std::isnan(model.mean)) return quantile_value(*space_, parameter, domain, rng.uniform());
   if (!space_->is_numeric(parameter)) {
     const auto last = static_cast<double>(space_->value_count(parameter) - 1);
-    SWARMSMITH_ASSERT(model.distribution, "the values of an ordinal depend on nothing");
+    SWARMSMITH_ASSERT(model.distribution, "the values of an ordinal parameter have no dependency");
     return std::min(last, std::floor(model.distribution->sample(rng)));
   }
   if (!model.distribution) {  // the domain depends on other parameters, and so does the spread

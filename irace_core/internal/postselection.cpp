@@ -35,7 +35,7 @@ std::vector<std::size_t> largest_set_that_fits(std::span<const std::int64_t> nee
     chosen.push_back(i);
     budget -= needs[i];
   }
-  SWARMSMITH_ASSERT(chosen.size() == size, "what completes a set still fits behind its members");
+  SWARMSMITH_ASSERT(chosen.size() == size, "the set can be completed within the budget");
   return chosen;
 }
 

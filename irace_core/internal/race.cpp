@@ -29,12 +29,12 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
       ranks_(contestants_.size()),
       quality_(contestants_.size()),
       quantiles_((1 - settings_.confidence) / 2) {
-  SWARMSMITH_ASSERT(!settings_.capping || settings_.bound_max > 0, "capping has a largest bound");
+  SWARMSMITH_ASSERT(!settings_.capping || settings_.bound_max > 0, "capping needs a largest bound");
   SWARMSMITH_ASSERT(settings_.new_pairs >= 0 && settings_.past_pairs >= 0 &&
                         settings_.new_pairs + settings_.past_pairs <=
                             static_cast<std::int64_t>(settings_.pairs.size()),
                     "new and past pairs lead the list");
-  SWARMSMITH_ASSERT(settings_.pairs_between_tests >= 1, "tests come again");
+  SWARMSMITH_ASSERT(settings_.pairs_between_tests >= 1, "the interval between tests is at least 1");
   SWARMSMITH_ASSERT(settings_.block_size >= 1, "a block has a pair");
   const auto new_pairs = static_cast<std::size_t>(settings_.new_pairs);
   for (std::size_t c = 0; c < contestants_.size(); ++c) {
@@ -61,7 +61,8 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
 }
 
 void Race::tell(std::span<const Measurement> measurements) {
-  SWARMSMITH_ASSERT(measurements.size() == wanted_.size(), "one answer for every wanted run");
+  SWARMSMITH_ASSERT(measurements.size() == wanted_.size(),
+                    "there is one answer for every wanted run");
   std::size_t at = 0;
   while (!stop_) {
     if (!open_ && !open_task()) break;
@@ -126,7 +127,7 @@ void Race::take_in(std::span<const Measurement> measurements, std::size_t& at) {
   if (stop_) return;
   // Every configuration that was alive then was asked for. Those rejected since then are left out
   // on both sides.
-  SWARMSMITH_ASSERT(answered == open_->due, "all that is due was asked for");
+  SWARMSMITH_ASSERT(answered == open_->due, "every due run was asked for");
   if (!open_->evaluates) {
     std::vector<std::size_t>& ran = open_->ran;
     for (const std::size_t c : answered)
@@ -164,7 +165,8 @@ void Race::take_evaluation(std::size_t column, double cost) {
   if (settings_.capping) {
     // A configuration that was not run in this task reached no bound in it.
     const bool ran = contains(open_->ran, column);
-    SWARMSMITH_ASSERT(!ran || times_[column].size() > progress_.task, "who was run has a time");
+    SWARMSMITH_ASSERT(!ran || times_[column].size() > progress_.task,
+                      "a configuration that was run has a time");
     cost = capped_cost(cost, ran ? times_[column][progress_.task] : 0,
                        ran ? open_->bounds[column] : settings_.bound_max, settings_.time_rules());
   }
@@ -193,7 +195,7 @@ void Race::close_task() {
   const bool only_elites = open_->only_elites;
   open_.reset();
   SWARMSMITH_ASSERT(progress_.task == static_cast<std::size_t>(step.task) - 1,
-                    "tasks come in turn");
+                    "tasks end in their order");
   pass(progress_, ran);  // 9.3.4; rejected ones (9.3.5) were removed when their costs arrived
   used_ = progress_.used;
   step.experiments_used = used_;
@@ -219,7 +221,8 @@ void Race::close_task() {
   const bool dropped = step.marker == '-' || step.marker == 'c';
   if (counts) tests_without_drop_ = dropped ? 0 : tests_without_drop_ + 1;
   step.alive_after = static_cast<std::int64_t>(alive_.size());
-  SWARMSMITH_ASSERT(step.alive_after <= step.alive_before, "who is out of a race stays out");
+  SWARMSMITH_ASSERT(step.alive_after <= step.alive_before,
+                    "a configuration never returns to a race");
   describe_agreement(step);
   step.digest = digest(step);
   steps_.push_back(std::move(step));

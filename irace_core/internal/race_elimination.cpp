@@ -75,7 +75,8 @@ TestResult Race::test_of_two() {
   const PairedResult result =
       wilcoxon_test(costs_so_far(alive_[0]), costs_so_far(alive_[1]), 1 - settings_.confidence);
   TestResult found{result.statistic, result.p_value, {}};
-  SWARMSMITH_ASSERT(!(result.drops_first && result.drops_second), "one of two is the better one");
+  SWARMSMITH_ASSERT(!(result.drops_first && result.drops_second),
+                    "the better one is one of the two");
   if (result.drops_first) found.dropped.push_back(alive_[0]);
   if (result.drops_second) found.dropped.push_back(alive_[1]);
   return found;
@@ -110,7 +111,8 @@ bool Race::is_capping_point() const {
 /// The costs have no gap: protected elites have their known results, all others were run on every
 /// task.
 std::span<const double> Race::costs_so_far(std::size_t column) const {
-  SWARMSMITH_ASSERT(costs_[column].size() >= progress_.task, "who is alive has seen every task");
+  SWARMSMITH_ASSERT(costs_[column].size() >= progress_.task,
+                    "an alive configuration has a cost for every task");
   return std::span(costs_[column]).first(progress_.task);
 }
 
@@ -137,7 +139,7 @@ void Race::add_ranked_row(std::size_t task) {
 void Race::drop(const std::vector<std::size_t>& columns) {
   const std::size_t dropped =
       std::erase_if(alive_, [&](std::size_t c) { return contains(columns, c); });
-  SWARMSMITH_ASSERT(dropped == columns.size(), "each of the dropped was alive until now");
+  SWARMSMITH_ASSERT(dropped == columns.size(), "only alive configurations are dropped");
   std::vector<bool> keeps(contestants_.size(), false);
   for (const std::size_t c : alive_)
     keeps[c] = true;
@@ -169,7 +171,8 @@ void Race::find_uncovered() {
 
 /// irace facts, 9.3.10: the smallest rank (11); of several that are equal, the first.
 void Race::describe_best(RaceStep& step) const {
-  SWARMSMITH_ASSERT(!alive_.empty() && progress_.task > 0, "a task is done, and one is left");
+  SWARMSMITH_ASSERT(!alive_.empty() && progress_.task > 0,
+                    "a task has ended, and a configuration is alive");
   std::size_t best = 0;
   if (settings_.test_type == TestType::FTest) {
     best = *std::min_element(alive_.begin(), alive_.end(), [&](auto a, auto b) {

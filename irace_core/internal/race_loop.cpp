@@ -120,7 +120,7 @@ void IteratedRace::State::tell(std::span<const Measurement> measurements) {
     tell_estimate(*raised);
     return;
   }
-  SWARMSMITH_ASSERT(asked_.size() == raised->size(), "each question has its answer");
+  SWARMSMITH_ASSERT(asked_.size() == raised->size(), "each run has its answer");
   for (std::size_t i = 0; i < asked_.size(); ++i)
     answers_[asked_[i]] = (*raised)[i];
   answer_race();

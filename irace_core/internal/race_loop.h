@@ -192,7 +192,7 @@ class IteratedRace::State {
   const Candidate& candidate(std::int64_t id) const { return candidates[index_of(id)]; }
   std::size_t index_of(std::int64_t id) const {
     SWARMSMITH_ASSERT(id >= 1 && id <= static_cast<std::int64_t>(candidates.size()),
-                      "ids are those of configurations that were made, from 1");
+                      "ids count existing configurations, from 1");
     return static_cast<std::size_t>(id - 1);
   }
 

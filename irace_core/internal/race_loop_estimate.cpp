@@ -29,7 +29,8 @@ Expected<void> IteratedRace::State::begin_estimate() {
 
 void IteratedRace::State::lower_bound_max(double bound) {
   warn("bound_max, the bound of runs, is lowered from " + to_fixed_text(bound_max_) + " to " +
-       to_fixed_text(bound) + ": the runs so far, and the time, say that it is much too large");
+       to_fixed_text(bound) +
+       ": the runs so far and the remaining time show that it is much too large");
   bound_max_ = bound;
 }
 
@@ -131,7 +132,7 @@ Expected<void> IteratedRace::State::end_estimate() {
   if (*shrunk) {
     iterations = schedule_.iterations();
     warn("with an estimated time of " + to_fixed_text(time->mean_time()) +
-         " a run, the time that is left is too short for the usual number of iterations: there "
+         " per run, the remaining time is too short for the usual number of iterations: there "
          "are " +
          std::to_string(iterations) +
          ", with few configurations each, and the result may be no better than a random search");

@@ -193,7 +193,7 @@ void IteratedRace::State::count_runs(RaceStep& step) {
   std::vector<std::pair<std::int64_t, std::int64_t>> evaluated;
   for (const auto& [id, pair] : step.evaluated) {
     const auto told = told_.extract({pair, id});
-    SWARMSMITH_ASSERT(!told.empty(), "what a step evaluated was told");
+    SWARMSMITH_ASSERT(!told.empty(), "each evaluated run of a step has a known cost");
     if (told.mapped().was_known) {
       ++repeated_;
       continue;
@@ -247,7 +247,7 @@ void IteratedRace::State::end_race() {
   used_before_race_ += used;
   SWARMSMITH_ASSERT(time || used_before_race_ <= total_budget_,
                     "a design never runs more than its budget");
-  SWARMSMITH_ASSERT(used >= 0, "what was known is part of what the race used");
+  SWARMSMITH_ASSERT(used >= 0, "the repeated runs are part of the race's runs");
   nothing_was_run_ = used == 0;
   take_over_results();
   choose_elites();

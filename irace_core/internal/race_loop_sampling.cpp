@@ -46,7 +46,7 @@ Expected<std::vector<std::int64_t>> IteratedRace::State::first_contestants(const
       ids, [&](std::int64_t id) { return id <= initial_count_ && candidate(id).results.empty(); });
   if (ids.size() == most && given < initial_count_ && elites.empty()) {
     warn("only " + std::to_string(given) + " of the " + std::to_string(initial_count_) +
-         " initial configurations take part: the first race has no place for more");
+         " initial configurations take part: the first race has no room for more");
   }
   if (ids.size() < most) {
     const auto missing = static_cast<std::int64_t>(most - ids.size());
@@ -108,7 +108,7 @@ Expected<std::vector<std::int64_t>> IteratedRace::State::later_contestants(
 
 Expected<std::vector<Candidate>> IteratedRace::State::sample_new(std::int64_t count, Rng& rng) {
   constexpr int kMostRounds = 100;
-  SWARMSMITH_ASSERT(!elites.empty(), "a race that leaves none is the last one");
+  SWARMSMITH_ASSERT(!elites.empty(), "a further race needs elites");
   std::vector<Candidate> sampled;
   for (int round = 0; round < kMostRounds; ++round) {
     const std::int64_t missing = count - static_cast<std::int64_t>(sampled.size());

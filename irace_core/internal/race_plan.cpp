@@ -17,7 +17,8 @@ std::string compared(const char* what, std::int64_t left, const char* sign, cons
 
 /// The mean of the first `tasks` values.
 double mean_of_first(const std::vector<double>& values, std::size_t tasks) {
-  SWARMSMITH_ASSERT(tasks > 0 && tasks <= values.size(), "it has run all of them");
+  SWARMSMITH_ASSERT(tasks > 0 && tasks <= values.size(),
+                    "the configuration was run on all these tasks");
   double sum = 0;
   for (std::size_t task = 0; task < tasks; ++task)
     sum += values[task];
@@ -106,7 +107,7 @@ std::optional<std::string> Race::rule_to_stop(const Progress& progress, std::siz
 /// run have used up a known pair (rules 9.3.1 and 9.3.4 of irace facts). Protection never
 /// increases: after the last past pair no column is protected.
 void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
-  SWARMSMITH_ASSERT(std::ranges::is_sorted(ran), "columns are looked up by halving");
+  SWARMSMITH_ASSERT(std::ranges::is_sorted(ran), "binary search needs ascending columns");
   for (const std::size_t c : alive_) {
     if (contains(ran, c)) {
       ++progress.results[c];
@@ -188,7 +189,7 @@ void Race::set_bounds() {
   }
   SWARMSMITH_ASSERT(
       std::ranges::all_of(task.due, [&](std::size_t c) { return task.bounds[c] > 0; }),
-      "a bound of 0 would be none");
+      "each bound is above 0, which would mean no bound");
 }
 
 std::optional<double> Race::elite_time() const {

@@ -45,7 +45,7 @@ void RankTable::add_row(std::vector<Entry> row) {
 }
 
 void RankTable::keep(const std::vector<bool>& keeps) {
-  SWARMSMITH_ASSERT(keeps.size() == sums_.size(), "each column is kept or forgotten");
+  SWARMSMITH_ASSERT(keeps.size() == sums_.size(), "there is a mark for each column");
   std::fill(sums_.begin(), sums_.end(), 0.0);
   ties_ = 0;
   squares_ = 0;

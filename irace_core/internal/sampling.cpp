@@ -40,7 +40,8 @@ bool is_whole(const Domain& domain) {
 
 double to_domain(const ParameterSpace& space, std::size_t parameter, const Interval& domain,
                  double drawn) {
-  SWARMSMITH_ASSERT(domain.lower <= domain.upper, "an empty domain was an error before");
+  SWARMSMITH_ASSERT(domain.lower <= domain.upper,
+                    "an empty domain is an error that was found earlier");
   if (is_whole(space[parameter].domain)) {
     return std::clamp(std::floor(drawn), domain.lower, domain.upper);
   }
@@ -80,9 +81,10 @@ Expected<Configuration> repaired(const ParameterSpace& space, const Repair& repa
   if (!repair) return sampled;
   auto changed = repair(sampled);
   if (!changed) return changed;
-  const auto checked = changed->size() == space.size()
-                           ? space.check(*changed)
-                           : Expected<void>(bad_input("has not one value for each parameter"));
+  const auto checked =
+      changed->size() == space.size()
+          ? space.check(*changed)
+          : Expected<void>(bad_input("does not have one value for each parameter"));
   if (checked) return changed;
   const Error& error = checked.error();
   return bad_input("the repair made (" + show(space, *changed) + ") of (" + show(space, sampled) +

@@ -16,7 +16,7 @@ std::int64_t default_count(int variable_parameters) {
 
 std::int64_t race_size(const RaceSizeQuestion& q) {
   const std::int64_t te = q.pairs_between_tests;
-  SWARMSMITH_ASSERT(te >= 1, "tests come again");
+  SWARMSMITH_ASSERT(te >= 1, "the interval between tests is at least 1");
   const std::int64_t pairs = (q.old_pairs + q.new_pairs + te - 1) / te * te;
   const std::int64_t cost = std::max(q.mu + te * std::min<std::int64_t>(5, q.iteration), pairs);
   SWARMSMITH_ASSERT(cost > 0, "a configuration costs experiments");
@@ -67,7 +67,7 @@ Expected<bool> Schedule::shrink_to(std::int64_t remaining) {
   bool changed = false;
   for (; minimum_budget() > remaining; changed = true) {
     if (iterations_ == 1) {
-      return bad_input("the time that is left is good for about " + std::to_string(remaining) +
+      return bad_input("the remaining time is enough for about " + std::to_string(remaining) +
                            " experiments, and a single iteration needs at least " +
                            std::to_string(minimum_budget()) + ": give more time",
                        "max_time");
@@ -85,7 +85,7 @@ std::string Schedule::advice_for_first_race(std::int64_t remaining) const {
   const std::int64_t most = remaining / (mu_ + pairs_between_tests_);
   if (wanted <= most) return {};
   return " (nb_configurations is " + std::to_string(wanted) + ", and " + std::to_string(remaining) +
-         " experiments are good for " + std::to_string(most) +
+         " experiments allow " + std::to_string(most) +
          "): give a larger budget, or ask for fewer configurations";
 }
 
@@ -95,7 +95,7 @@ void Schedule::limit_new_pairs(std::int64_t unused) {
 
 std::int64_t Schedule::iteration_budget(std::int64_t remaining) const {
   if (scenario_.nb_experiments_per_iteration > 0) return scenario_.nb_experiments_per_iteration;
-  SWARMSMITH_ASSERT(iteration_ <= iterations_, "iterations to come share the rest");
+  SWARMSMITH_ASSERT(iteration_ <= iterations_, "the current iteration is one of those planned");
   return remaining / (iterations_ - iteration_ + 1);
 }
 

@@ -36,7 +36,8 @@ Prepared prepare(const ParameterSpace& space, const Configuration& configuration
     }
     const Interval* constant = space.constant_interval(i);
     if (constant == nullptr && !values) values.emplace(space, configuration);
-    SWARMSMITH_ASSERT(constant != nullptr || values, "a dependent domain needs what it depends on");
+    SWARMSMITH_ASSERT(constant != nullptr || values,
+                      "a dependent domain needs the values that it depends on");
     const Interval domain = constant != nullptr ? *constant : **space.interval(i, *values);
     // Logarithmic parameters are sampled, and so compared, on a logarithmic scale (irace facts,
     // 25.8).
@@ -54,7 +55,7 @@ Prepared prepare(const ParameterSpace& space, const Configuration& configuration
 bool near(const Prepared& a, const Prepared& b, double threshold) {
   constexpr double kRounding = 1e-15;
   SWARMSMITH_ASSERT(a.positions.size() == b.positions.size(),
-                    "where the choices agree, the same numbers are active");
+                    "configurations with the same choices have the same active numbers");
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
     if (std::fabs(a.positions[i] - b.positions[i]) > threshold + kRounding) return false;
   }

@@ -22,7 +22,7 @@ TimeBudget::TimeBudget(const Scenario& scenario, std::int64_t pairs)
 }
 
 void TimeBudget::count(double time) {
-  SWARMSMITH_ASSERT(time > 0, "a run without its time was an error before");
+  SWARMSMITH_ASSERT(time > 0, "a run without its time is an error that was found earlier");
   ++runs_;
   used_ += time;
 }

@@ -36,7 +36,7 @@ std::int64_t most_runs_of(const AnnealingOptions& options) {
 
 /// The factor between the start temperature and the temperature after `used` runs.
 double cooled(const AnnealingOptions& options, std::int64_t budget, std::int64_t used) {
-  SWARMSMITH_ASSERT(options.start_temperature > 0, "what cools was warm");
+  SWARMSMITH_ASSERT(options.start_temperature > 0, "the start temperature is above 0");
   const auto walked = static_cast<double>(used - scale_runs_of(options));
   const auto all = static_cast<double>(budget - scale_runs_of(options) - 2 * options.final_runs);
   const double share = std::clamp(walked / all, 0.0, 1.0);
@@ -51,7 +51,7 @@ struct Walker {
   std::map<std::int64_t, double> costs;  ///< by pair
 
   double mean() const {
-    SWARMSMITH_ASSERT(!costs.empty(), "who walks was run");
+    SWARMSMITH_ASSERT(!costs.empty(), "a walker has a cost");
     double sum = 0;
     for (const auto& [pair, cost] : costs)
       sum += cost;
@@ -95,7 +95,7 @@ class Annealing final : public Strategy {
   }
 
   Verdict take(std::span<const double> costs) override {
-    SWARMSMITH_ASSERT(costs.size() == runs_.size(), "a cost for each run");
+    SWARMSMITH_ASSERT(costs.size() == runs_.size(), "there is a cost for each run");
     used_ += static_cast<std::int64_t>(costs.size());
     SWARMSMITH_ASSERT(used_ <= budget_, "a search keeps to its budget");
     if (phase_ == Phase::Scale) return take_scale(costs);
@@ -176,7 +176,7 @@ class Annealing final : public Strategy {
   /// The window of pairs moves on by `moved`: the incumbent and the best are run only on the new
   /// pairs, the candidate on the whole window, so that all three are compared on the same pairs.
   Expected<std::optional<Round>> step_round(std::int64_t next_id) {
-    SWARMSMITH_ASSERT(phase_ == Phase::Walking, "steps come between the scale and the final stage");
+    SWARMSMITH_ASSERT(phase_ == Phase::Walking, "steps lie between the scale and the final stage");
     step_rng_ = rng_.split("perturb", static_cast<std::uint64_t>(++steps_));
     auto perturbed = neighbourhood_.perturb(incumbent_.configuration, step_rng_);
     if (!perturbed) return Unexpected(perturbed.error());
@@ -254,7 +254,7 @@ class Annealing final : public Strategy {
 
   /// Runs incumbent and best on pairs after the last window: the lower mean wins.
   Expected<std::optional<Round>> final_round() {
-    SWARMSMITH_ASSERT(phase_ == Phase::Walking, "the final stage comes once, behind the steps");
+    SWARMSMITH_ASSERT(phase_ == Phase::Walking, "the final stage comes once, after the steps");
     phase_ = Phase::Final;
     Round round;
     const std::vector<std::int64_t> ids = elite_ids();
@@ -354,7 +354,7 @@ Neighbourhood one_parameter_neighbourhood(const ParameterSpace& space, Configura
       if (!made) return made;
       if (*made != from && !space.is_forbidden(*made)) return made;
     }
-    return bad_input("no configuration beside the incumbent is allowed");
+    return bad_input("no configuration besides the incumbent is allowed");
   };
   return {std::move(start), perturb};
 }
@@ -374,7 +374,8 @@ std::int64_t walked(const AnnealingOptions& options, const SearchPoint& point) {
 std::vector<SearchFault> AnnealingOptions::faults() const {
   std::vector<SearchFault> faults;
   if (moved > window)
-    faults.push_back({{"moved"}, "`moved` is at most `window`: a window moves on by parts of it"});
+    faults.push_back(
+        {{"moved"}, "`moved` must be at most `window`: a window moves on by parts of it"});
   // The published schedule has its own temperatures. The default values are allowed here, since
   // they are in the text that stores contain.
   const AnnealingOptions usual;
@@ -382,7 +383,7 @@ std::vector<SearchFault> AnnealingOptions::faults() const {
     if (cooling != Cooling::Published || value == usually) return;
     faults.push_back({{key},
                       "`" + std::string(key) +
-                          "` is of geometric cooling; the published one begins at 125 score "
+                          "` is for geometric cooling; the published one begins at 125 score "
                           "units, and again whenever it is below 0.00125"});
   };
   refuse("start_temperature", start_temperature, usual.start_temperature);
@@ -390,8 +391,8 @@ std::vector<SearchFault> AnnealingOptions::faults() const {
   if (start_temperature > 0 && end_temperature > start_temperature) {
     faults.push_back({{"end_temperature", "start_temperature"},
                       "`end_temperature` (" + number_text(end_temperature) +
-                          ") is at most `start_temperature` (" + number_text(start_temperature) +
-                          "): annealing cools"});
+                          ") must be at most `start_temperature` (" +
+                          number_text(start_temperature) + "): annealing cools"});
   }
   return faults;
 }

@@ -102,7 +102,7 @@ CmaEs::CmaEs(std::vector<double> mean, double step, std::int64_t population)
     weight /= sum;
     squares += square(weight);
   }
-  SWARMSMITH_ASSERT(weights_.back() > 0, "each of the better half counts");
+  SWARMSMITH_ASSERT(weights_.back() > 0, "each of the better half has a positive weight");
   mu_eff_ = 1 / squares;
   // Table 1 of the tutorial.
   c_sigma_ = (mu_eff_ + 2) / (n + mu_eff_ + 5);
@@ -130,7 +130,7 @@ void CmaEs::decompose() {
 
 std::vector<double> CmaEs::point_of(std::span<const double> normals) const {
   const std::size_t n = dimensions();
-  SWARMSMITH_ASSERT(normals.size() == n, "a normal number for each dimension");
+  SWARMSMITH_ASSERT(normals.size() == n, "there is a normal number for each dimension");
   // mean + step B D z (equations 38 to 40).
   std::vector<double> point(mean_);
   for (std::size_t i = 0; i < n; ++i) {

@@ -107,7 +107,7 @@ class EvolutionBreeder final : public Breeder {
     const std::size_t parents = count_of(options_.parents, last.size());
     const std::size_t elites = std::min(parents, count_of(options_.elites, last.size()));
     SWARMSMITH_ASSERT(1 <= elites && elites <= parents && parents <= last.size(),
-                      "an elite is a parent, and a parent was run");
+                      "every elite is a parent and was run");
     Brood brood;
     std::map<std::int64_t, std::vector<double>> before = std::exchange(members_, {});
     for (const Scored& elite : last.first(elites)) {
@@ -160,8 +160,8 @@ namespace swarmsmith {
 std::vector<SearchFault> EvolutionOptions::faults() const {
   if (elites <= parents) return {};
   return {{{"elites", "parents"},
-           "`elites` (" + number_text(elites) + ") is at most `parents` (" + number_text(parents) +
-               "): who goes on unchanged has children, too"}};
+           "`elites` (" + number_text(elites) + ") must be at most `parents` (" +
+               number_text(parents) + "): each elite is also a parent"}};
 }
 
 Expected<std::unique_ptr<search::Strategy>> EvolutionOptions::start(search::Start from) const {

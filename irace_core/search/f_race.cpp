@@ -72,7 +72,7 @@ Scenario f_race_scenario(Scenario scenario, const FRaceOptions& options) {
 
 std::vector<SearchFault> FRaceOptions::faults() const {
   if (configurations != 1) return {};
-  return {{{"configurations"}, "`configurations` must be 0 (automatic) or at least 2, this is 1"}};
+  return {{{"configurations"}, "`configurations` must be 0 (automatic) or at least 2, not 1"}};
 }
 
 Expected<std::unique_ptr<Search>> FRaceOptions::start_race(ParameterSpace space,

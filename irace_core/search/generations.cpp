@@ -29,7 +29,8 @@ Expected<GenerationPlan> plan_generations(std::int64_t budget, std::int64_t popu
   const std::int64_t generations = (budget - population * final_runs) / (population * runs);
   // Runs that are not enough for a generation go to the final stage, so that the budget is used up.
   const std::int64_t left = budget - generations * population * runs;
-  SWARMSMITH_ASSERT(generations >= 1 && left >= population, "there is a generation, and an end");
+  SWARMSMITH_ASSERT(generations >= 1 && left >= population,
+                    "the budget allows a generation and a final stage");
   return GenerationPlan{.generations = generations,
                         .population = population,
                         .configurations = generations * population,
@@ -53,7 +54,8 @@ Expected<std::optional<Round>> Generations::next(std::int64_t next_id) {
   for (std::size_t i = 0; i < brood->newcomers.size(); ++i)
     ids.push_back(next_id + static_cast<std::int64_t>(i));
   round.newcomers = std::move(brood->newcomers);
-  SWARMSMITH_ASSERT(static_cast<std::int64_t>(ids.size()) == size, "a brood has its size");
+  SWARMSMITH_ASSERT(static_cast<std::int64_t>(ids.size()) == size,
+                    "a generation has its full size");
   // The final stage uses pairs that no generation has used, so that the winner is not just the
   // member that was lucky on its own pairs.
   const std::int64_t pairs = is_final() ? plan_.final_runs : plan_.runs;
@@ -68,7 +70,7 @@ Expected<std::optional<Round>> Generations::next(std::int64_t next_id) {
 }
 
 Verdict Generations::take(std::span<const double> costs) {
-  SWARMSMITH_ASSERT(costs.size() == runs_.size(), "a cost for each run");
+  SWARMSMITH_ASSERT(costs.size() == runs_.size(), "there is a cost for each run");
   std::vector<Scored> order = ranked(runs_, costs);
   over_ = is_final();
   const std::vector<Scored> elites = is_final() ? order : breeder_->elites(order);
@@ -100,7 +102,7 @@ Expected<void> Generations::extend(std::int64_t experiments) {
     plan_.configurations = configurations;
     plan_.generations = (configurations + plan_.population - 1) / plan_.population;
   }
-  SWARMSMITH_ASSERT(plan_.generations >= 1, "what is enough is enough for a generation");
+  SWARMSMITH_ASSERT(plan_.generations >= 1, "the plan has at least one generation");
   generation_ = 0;
   bred_ = 0;
   over_ = false;

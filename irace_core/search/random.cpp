@@ -89,7 +89,7 @@ Expected<Configuration> draw_uniform(const ParameterSpace& space, const Repair& 
     if (!whole || !space.is_forbidden(*whole)) return whole;
   }
   return bad_input(
-      "a hundred draws in a row were forbidden: the forbidden clauses leave too little");
+      "a hundred draws in a row were forbidden: the forbidden clauses exclude too much");
 }
 
 Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOptions& options) {

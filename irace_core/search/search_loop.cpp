@@ -52,7 +52,7 @@ Expected<void> SearchLoop::ask() {
   wanted_.reserve(round_.runs.size());
   for (const auto& [id, pair] : round_.runs) {
     SWARMSMITH_ASSERT(id >= 1 && id <= static_cast<std::int64_t>(configurations_.size()),
-                      "a round runs configurations that were made");
+                      "a round runs existing configurations");
     instances_.extend_to(pair);
     wanted_.push_back({.configuration = id,
                        .pair = pair,
@@ -97,7 +97,7 @@ void SearchLoop::tell(std::span<const Measurement> measurements) {
   report_steps(costs);
   Verdict verdict = strategy_->take(costs);
   alive_ = std::move(verdict.alive);
-  SWARMSMITH_ASSERT(std::ranges::is_sorted(alive_), "ids are looked up by halving");
+  SWARMSMITH_ASSERT(std::ranges::is_sorted(alive_), "binary search needs ascending ids");
   if (verdict.ended) {
     verdict.ended->iteration = iteration_;
     verdict.ended->used = used_;

@@ -34,7 +34,7 @@ Expected<std::unique_ptr<Search>> start_rounds(const Kind& kind, ParameterSpace 
     return Unexpected(checked.error());
   if (repair && !Kind::kWords.takes_repairs) {
     return bad_input("is for irace, f-race and random: the search " + name +
-                         " goes on from what it made itself, not from what was repaired",
+                         " continues from what it made itself, not from what was repaired",
                      "repair_configuration");
   }
   for (const Configuration& given : initial) {

@@ -9,7 +9,7 @@ namespace swarmsmith::search {
 
 std::vector<Scored> ranked(std::span<const std::pair<std::int64_t, std::int64_t>> runs,
                            std::span<const double> costs) {
-  SWARMSMITH_ASSERT(runs.size() == costs.size(), "a cost for each run");
+  SWARMSMITH_ASSERT(runs.size() == costs.size(), "there is a cost for each run");
   std::map<std::int64_t, Scored> by_id;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Scored& scored = by_id[runs[i].first];

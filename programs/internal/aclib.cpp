@@ -34,7 +34,7 @@ Expected<Reading> parse_aclib(std::string_view output, const Target& target) {
   const std::string_view line = result_line(output);
   if (line.empty()) {
     return bad_input("the targetRunner printed no line `" + std::string(kIntroduction) +
-                     " {...}`, which aclib asks for");
+                     " {...}`, which aclib requires");
   }
   const nlohmann::json result = nlohmann::json::parse(line, nullptr, false);
   if (!result.is_object()) {

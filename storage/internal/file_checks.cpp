@@ -22,7 +22,7 @@ constexpr std::size_t kHeaderBytes = 100;
 constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 
 constexpr std::string_view kWayOut =
-    "take it from a backup, or let `swarmsmith recover` make a new store of what can be read";
+    "restore it from a backup, or let `swarmsmith recover` make a new store from what can be read";
 
 std::uint64_t number_at(std::string_view header, std::size_t at, std::size_t bytes) {
   std::uint64_t value = 0;
@@ -33,11 +33,11 @@ std::uint64_t number_at(std::string_view header, std::size_t at, std::size_t byt
 }
 
 Unexpected truncated(const std::filesystem::path& path, std::uint64_t has, std::uint64_t wants) {
-  return unexpected(ErrorKind::Corrupt,
-                    fmt::format("the store is truncated: it has {} bytes, and its header speaks of "
-                                "{}; {}",
-                                has, wants, kWayOut),
-                    path.string());
+  return unexpected(
+      ErrorKind::Corrupt,
+      fmt::format("the store is truncated: it has {} bytes, and its header says {}; {}", has, wants,
+                  kWayOut),
+      path.string());
 }
 
 constexpr std::uint32_t kFuse = 0x65735546;

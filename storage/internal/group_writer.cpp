@@ -27,8 +27,8 @@ bool is_for_ever(const sqlite::SqliteError& error) {
 }
 
 constexpr const char* kWayOut =
-    "nothing more was written; take the store from a backup, or let `swarmsmith recover` make a "
-    "new one of what can be read, and check it with `swarmsmith verify --sample 1000000`";
+    "nothing more was written; restore the store from a backup, or let `swarmsmith recover` make a "
+    "new one from what can be read, and check it with `swarmsmith verify --sample 1000000`";
 
 }  // namespace
 
@@ -236,7 +236,7 @@ std::string GroupWriter::commit(const std::vector<Batch>& group) {
     SWARMSMITH_ASSERT(error.primary_code() != SQLITE_MISUSE, error.what());
     if (is_for_ever(error)) {
       changed_ = fmt::format(
-          "the store has other rows than its campaign wrote, and takes no more of them: {}",
+          "the store's rows are not those that its campaign wrote, so no more are written: {}",
           error.what());
       return {};
     }

@@ -158,7 +158,7 @@ Expected<std::string> HeldFile::save(sqlite::Connection& connection) const {
     if (beside_[i] && identity_of(name, std::nullopt) == beside_[i]) ::unlink(name.c_str());
   }
   return fmt::format(
-      "everything so far is in {0}: `mv {0} {1}` gives it its name again, and the same command "
+      "everything so far is in {0}: `mv {0} {1}` gives it its name back, and the same command "
       "continues from there",
       copy->string(), path_.string());
 }

@@ -45,7 +45,7 @@ std::string in_use_text(const std::string& holder) {
   return fmt::format(
       "another process is writing this store ({}); wait for it to end or stop it, or read with a "
       "read-only command",
-      holder.empty() ? "it did not leave its name" : holder);
+      holder.empty() ? "its name is unknown" : holder);
 }
 
 namespace {

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Unexpected taken(const fs::path& path) {
-  return bad_input("there is a file of that name, and nothing is overwritten; name another",
+  return bad_input("a file with this name exists, and nothing is overwritten; choose another name",
                    path.string());
 }
 

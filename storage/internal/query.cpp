@@ -154,8 +154,8 @@ Unexpected not_readable(const sqlite::Connection& connection, int code,
                         const StoreReader::QueryLimits& limits) {
   const std::string file = connection.file();
   if ((code & 0xff) == SQLITE_NOMEM) {
-    return bad_input(fmt::format("this takes more memory than {} MB, the most that reading a store "
-                                 "may take; ask for one design or mission",
+    return bad_input(fmt::format("this takes more memory than {} MB, the limit for reading a "
+                                 "store; ask for one design or mission",
                                  limits.memory >> 20U),
                      file);
   }
@@ -165,8 +165,8 @@ Unexpected not_readable(const sqlite::Connection& connection, int code,
   }
   if (code == SQLITE_AUTH) {
     return bad_input(
-        "its views are not those of its schema; `swarmsmith backup` makes a copy with "
-        "ours",
+        "its views are not those of its schema; `swarmsmith backup` makes a copy with the right "
+        "ones",
         file);
   }
   return bad_input(sqlite3_errmsg(connection.handle()), file);
@@ -185,11 +185,9 @@ Unexpected refused(const sqlite::Connection& connection, int code, const std::st
                        sql);
     case SQLITE_TOOBIG:
       if (sql.size() >= (1U << 20U)) return bad_input("the query is longer than 1 MB");
-      return bad_input(
-          fmt::format("a value in the query is longer than {} MB, the most that it may "
-                      "make or read",
-                      kMostValueBytes >> 20U),
-          sql);
+      return bad_input(fmt::format("a value in the query is longer than {} MB, the limit",
+                                   kMostValueBytes >> 20U),
+                       sql);
     default:
       return bad_input(sqlite3_errmsg(connection.handle()), sql);
   }
@@ -275,8 +273,8 @@ Expected<StoreReader::QueryEnd> give_rows(
     }
     const std::int64_t bytes = bytes_of(row, width);
     if (bytes > kMostRowBytes) {
-      return bad_input(fmt::format("a row of the answer has {} MB; {} MB is the most", bytes >> 20U,
-                                   kMostRowBytes >> 20U),
+      return bad_input(fmt::format("a row of the answer has {} MB; the limit is {} MB",
+                                   bytes >> 20U, kMostRowBytes >> 20U),
                        limits.typed ? sql : connection.file());
     }
     given += bytes + static_cast<std::int64_t>(width * sizeof(StoreReader::Cell));

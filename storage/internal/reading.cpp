@@ -86,7 +86,7 @@ std::string lost_texts(const Connection& connection) {
   const auto lost = candidates_without_phrases(connection);
   if (lost.empty()) return {};
   return fmt::format(
-      "candidates name phrases that do not exist, or make more text of them than a store's: {}",
+      "candidates refer to phrases that do not exist, or their text is longer than a store's: {}",
       lost.size());
 }
 
@@ -103,7 +103,7 @@ std::vector<std::string> faults_of(const sqlite::Connection& connection) {
                       "SELECT \"table\", parent, count(*) FROM pragma_foreign_key_check"
                       " GROUP BY \"table\", parent");
     while (foreign.step()) {
-      faults.push_back(fmt::format("rows of {} name rows of {} that do not exist: {}",
+      faults.push_back(fmt::format("rows of {} refer to rows of {} that do not exist: {}",
                                    foreign.text(0), foreign.text(1), foreign.integer(2)));
     }
     if (std::string lost = lost_texts(connection); !lost.empty()) faults.push_back(std::move(lost));
@@ -144,8 +144,9 @@ void LongCheck::look() {
   if (is_told_ || SteadyClock::now() < until_) return;
   is_told_ = true;
   if (check_listener()) {
-    check_listener()(fmt::format("checking all of {} ({} MB), which is not as it was closed last",
-                                 path_.string(), connection_.file_size() >> 20U));
+    check_listener()(
+        fmt::format("checking all of {} ({} MB), which has changed since it was last closed",
+                    path_.string(), connection_.file_size() >> 20U));
   }
 }
 

@@ -339,7 +339,7 @@ std::vector<std::string> faults_of_real_runs(const Connection& connection) {
       "SELECT run, place_calibration FROM real_video UNION ALL "
       "SELECT run, offset_calibration FROM real_robot)"
       " WHERE sha256 <> '' AND sha256 NOT IN (SELECT sha256 FROM calibration) ORDER BY run",
-      "names calibrations that do not exist");
+      "refers to calibrations that do not exist");
   each_run("SELECT id FROM real_run WHERE id NOT IN (SELECT run FROM real_score) ORDER BY id",
            "has no score");
   for (const RealRunPart& part : kRealRunParts) {

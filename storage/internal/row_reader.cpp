@@ -440,7 +440,7 @@ void read_candidates(const sqlite::Connection& connection, const Part& part, con
       connection.fail(
           SQLITE_CORRUPT,
           to_string(candidate.id) +
-              " names phrases that do not exist, or makes more text of them than a store's");
+              " refers to phrases that do not exist, or its text is longer than a store's");
     }
     on_row(candidate);
   });

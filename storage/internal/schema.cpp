@@ -77,9 +77,10 @@ Expected<void> check_flavours(const sqlite::Connection& connection) {
   std::map<std::string, const Flavour*> known;
   for (const Flavour* flavour : own_flavours(connection)) {
     if (*known.try_emplace(flavour->name, flavour).first->second == *flavour) continue;
-    return bad_input("two campaigns have different flavours of the name " + flavour->name +
-                     ", and a store tells modules by it; give one of them another name, or keep "
-                     "them in stores of their own");
+    return bad_input(
+        "two campaigns have different flavours of the name " + flavour->name +
+        ", and a store identifies modules by it; give one of them another name, or keep "
+        "them in stores of their own");
   }
   return {};
 }

@@ -163,8 +163,8 @@ Expected<void> check_schema(const Connection& connection, const std::filesystem:
   return unexpected(
       ErrorKind::Corrupt,
       fmt::format("the store's schema is not as Swarmsmith made it: {}; nothing is written to it. "
-                  "`swarmsmith backup {} copy.db` copies our rows alone into a new store, which "
-                  "can be used in its place",
+                  "`swarmsmith backup {} copy.db` copies only the rows of Swarmsmith into a new "
+                  "store, which can be used instead",
                   listed_objects(foreign), path.filename().string()),
       path.string());
 }
@@ -181,11 +181,12 @@ Expected<void> check_tables(const Connection& connection, const std::filesystem:
       if (wanted != has) how = difference(wanted, has);
     }
     if (how.empty()) continue;
-    return unexpected(ErrorKind::Corrupt,
-                      fmt::format("the store's table {} {} ({}); take the store from a backup, or "
-                                  "let `swarmsmith recover` make a new one of what can be read",
-                                  table, kNotOurs, how),
-                      path.string());
+    return unexpected(
+        ErrorKind::Corrupt,
+        fmt::format("the store's table {} {} ({}); restore the store from a backup, or let "
+                    "`swarmsmith recover` make a new one from what can be read",
+                    table, kNotOurs, how),
+        path.string());
   }
   return {};
 }
@@ -217,8 +218,7 @@ Expected<void> check_lengths(const Connection& connection, const std::filesystem
         fmt::format("SELECT max(length(CAST({} AS BLOB))) FROM {}", limit.column, limit.table));
     if (longest <= limit.most) continue;
     return unexpected(ErrorKind::Corrupt,
-                      fmt::format("a {} in the store's table {} has {} bytes; a store has {} at "
-                                  "most",
+                      fmt::format("a {} in the store's table {} has {} bytes; the limit is {}",
                                   limit.column, limit.table, longest, limit.most),
                       path.string());
   }

@@ -28,7 +28,7 @@ std::vector<std::string> rows_of(const Flavour& flavour) {
 /// Replaces the only occurrence of `name` in the views.
 void put(std::string& views, std::string_view name, const std::string& text) {
   const std::size_t at = views.find(name);
-  SWARMSMITH_ASSERT(at != std::string::npos, "views.sql has a place for what is made");
+  SWARMSMITH_ASSERT(at != std::string::npos, "views.sql has a place for the generated part");
   views.replace(at, name.size(), text);
 }
 

@@ -18,7 +18,7 @@ TEST(Median, OfAnEvenNumberIsTheMeanOfTwoOrTheUpperOne) {
 }
 
 TEST(MedianDeathTest, OfNothingIsNone) {
-  EXPECT_DEATH(upper_median({}), "a median of nothing");
+  EXPECT_DEATH(upper_median({}), "a median needs a value");
 }
 
 }  // namespace

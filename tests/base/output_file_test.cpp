@@ -70,7 +70,8 @@ TEST(OutputPlaceTest, OneThatIsReadIsNotWritten) {
   write(folder / "a.csv", "a,b\n");
   EXPECT_EQ(refusal(folder / "a.csv", FileKind::Table), "");
   note_input(folder / "a.csv");
-  EXPECT_THAT(refusal(folder / "a.csv", FileKind::Table), HasSubstr("a.csv: is what this command"));
+  EXPECT_THAT(refusal(folder / "a.csv", FileKind::Table),
+              HasSubstr("a.csv: is an input of this command"));
   // By any name.
   fs::create_hard_link(folder / "a.csv", folder / "b.csv");
   fs::create_symlink("a.csv", folder / "c.csv");
@@ -84,7 +85,7 @@ TEST(OutputPlaceTest, OfAnotherKindIsNotReplaced) {
   const TemporaryFolder folder;
   write(folder / "arena.toml", "format = 1\n");
   EXPECT_THAT(refusal(folder / "arena.toml", FileKind::WebPage),
-              HasSubstr("is there already and is a TOML file, not a web page"));
+              HasSubstr("already exists and is a TOML file, not a web page"));
   EXPECT_EQ(refusal(folder / "arena.toml", FileKind::Toml), "");
   write(folder / "empty", "");
   EXPECT_EQ(refusal(folder / "empty", FileKind::Video), "");

@@ -31,10 +31,10 @@ TEST(CampaignWarnings, NameSensorsThatSeeLessOrMoreFarThanTheFlavourReckonsWith)
   EXPECT_THAT(warnings_about(campaign),
               ElementsAre("method \"m\": flavour watermelon takes obstacles into account up to 0.4 "
                           "m, but the proximity sensors of profile rvr see up to 0.3 m; obstacles "
-                          "between are never seen"));
+                          "in between are never seen"));
   campaign.profile.proximity.range_m = 2;
   EXPECT_THAT(warnings_about(campaign),
-              ElementsAre(HasSubstr("see up to 2 m; what they see beyond is not heeded")));
+              ElementsAre(HasSubstr("see up to 2 m; what they see beyond that is ignored")));
 }
 
 TEST(CampaignWarnings, NameMissionsInTheDarkForModulesThatWantLight) {
@@ -58,12 +58,13 @@ TEST(CampaignWarnings, NameMissionsInTheDarkForModulesThatWantLight) {
 TEST(CampaignWarnings, SayWhatARobotOfAnotherShapeKeepsOfTheRvr) {
   Campaign campaign = campaign_of("");
   campaign.missions[0].mission.robot.body.outline = CircleOutline{0.035};
-  EXPECT_THAT(warnings_about(campaign),
-              ElementsAre("mission aggregation: its robot has a shape of its own, and all else of "
-                          "the RVR: 2 kg, a drive of 1.5 N, treads 0.147 m apart, the ground "
-                          "sensor 0.05 m ahead of the centre, a height of 0.114 m, neighbours up "
-                          "to 0.75 m",
-                          kOutside));
+  EXPECT_THAT(
+      warnings_about(campaign),
+      ElementsAre("mission aggregation: its robot has a shape of its own; everything else "
+                  "is that of the RVR: 2 kg, a drive of 1.5 N, treads 0.147 m apart, the ground "
+                  "sensor 0.05 m ahead of the centre, a height of 0.114 m, neighbours up "
+                  "to 0.75 m",
+                  kOutside));
   campaign.missions[0].mission.robot.body.outline = BoxOutline{0.3, 0.2};
   EXPECT_THAT(warnings_about(campaign), ElementsAre(HasSubstr("a shape of its own")));
   campaign.missions[0].mission.robot.body.outline =
@@ -100,7 +101,7 @@ TEST(CampaignWarnings, NameWallsThatAreLowerThanTheRaysThatMeetThem) {
   mission.robot.proximity.height_m = 0.1;
   EXPECT_THAT(warnings_about(campaign),
               ElementsAre("mission aggregation: the robot's proximity sensors are 0.1 m high, its "
-                          "walls 0.032 m; simulated rays meet walls of any height"));
+                          "walls 0.032 m; simulated rays hit walls of any height"));
 }
 
 TEST(CampaignWarnings, NameModulesThatLookForNeighboursOfARobotThatSeesNone) {

@@ -129,7 +129,7 @@ TEST(Evaluate, TakesStartsFromATable) {
     onto_input.insert(onto_input.end(), {option, (folder / "starts.csv").string()});
     const Ran ran = run(onto_input);
     EXPECT_EQ(ran.code, 2);
-    EXPECT_THAT(ran.err, HasSubstr("starts.csv: is what this command reads")) << option;
+    EXPECT_THAT(ran.err, HasSubstr("starts.csv: is an input of this command")) << option;
   }
   write_file(folder / "starts.csv",
              "seed,robot,x,y,theta\n5,0,0.1,0.2,0\n5,1,0.1,0.3,1\n5,2,0.6,0.6,7\n"
@@ -208,7 +208,7 @@ TEST(Evaluate, TakesAFlavourFromAFile) {
                                    "another robot\n"));
   write_file(folder / "mine.toml", "format = 1\nbase = \"watermelon\"\nstates = 20\n");
   EXPECT_THAT(evaluate(kExploreText, file).err,
-              HasSubstr("mine.toml:3:10: `states` must be from 1 to 16, this is 20"));
+              HasSubstr("mine.toml:3:10: `states` must be from 1 to 16, not 20"));
 }
 
 TEST(Flavours, AreListedPrintedAndWrittenButNotOver) {
@@ -473,7 +473,7 @@ TEST(Seeds, AreRangesAndLists) {
   for (const char* twice : {"3,3,3", "1-4,3", "3,1-4"}) {
     const auto seeds = parse_seeds(twice);
     ASSERT_FALSE(seeds) << twice;
-    EXPECT_EQ(to_string(seeds.error()), "--seeds: seed 3 is there twice");
+    EXPECT_EQ(to_string(seeds.error()), "--seeds: seed 3 occurs twice");
   }
 }
 

@@ -35,7 +35,7 @@ TEST_F(ExportIrace, WritesAFolderFromAStore) {
 TEST_F(ExportIrace, NeverOverwrites) {
   run_well({"export", store_, "--format", "irace", "-o", folder()});
   EXPECT_THAT(refusal({"export", store_, "--format", "irace", "-o", folder()}),
-              HasSubstr("is there already"));
+              HasSubstr("already exists"));
 }
 
 TEST_F(ExportIrace, WantsToKnowWhichDesignWhereTheyDiffer) {

@@ -31,7 +31,7 @@ TEST_F(ExportMachines, WritesOneToStandardOutput) {
 
 TEST_F(ExportMachines, WritesSeveralIntoAFolder) {
   EXPECT_THAT(refusal({"export", store_, "--format", "svg", "--what", "all"}),
-              HasSubstr("2 machines are as many files"));
+              HasSubstr("2 machines need as many files"));
   const Ran ran =
       run({"export", store_, "--format", "svg", "--what", "all", "-o", place("new/f"), "--json"});
   EXPECT_EQ(ran.code, 0) << ran.err;

@@ -232,7 +232,7 @@ TEST_F(ExportRdata, SaysWhatIsWrong) {
   EXPECT_THAT(refused(2, {"-o", place("notes.txt")}), HasSubstr("is a text"));
   EXPECT_THAT(refused(2, {"-o", store_}), HasSubstr("a store"));
   ASSERT_EQ(exported(store_).code, 0);
-  EXPECT_THAT(exported(store_).err, HasSubstr("is there already; name another folder"));
+  EXPECT_THAT(exported(store_).err, HasSubstr("already exists; name another folder"));
 }
 
 TEST_F(ExportRdata, WantsToKnowWhichOfSeveralDesigns) {

@@ -258,8 +258,8 @@ TEST_F(Replay, ExplainsWhatIsWrongWithItsArguments) {
       {{"e100001", "--at", "3"}, "add --svg FILE"},
       {{"e100001", "--readings", "all"}, "--readings: needs --csv FILE"},
       {{"e100001", "--csv", "x", "--readings", "al"}, "--readings: there is no sensor `al`"},
-      {{"e100001", "--svg", "x", "--at", "121"}, "--at: wants seconds from 0 to 120"},
-      {{"e100001", "--svg", "x", "--at", "nan"}, "--at: wants seconds from 0 to 120"},
+      {{"e100001", "--svg", "x", "--at", "121"}, "--at: must be seconds from 0 to 120"},
+      {{"e100001", "--svg", "x", "--at", "nan"}, "--at: must be seconds from 0 to 120"},
       {{"e100001", "--svg", "x", "--at", "1", "--to", "2"}, "--at: draws one instant"},
       {{"e100001", "--svg", "x", "--from", "3", "--to", "2"}, "--to: the span ends before"},
       {{"e100001", "--svg", "x", "--width", "3mm"}, "--width: a picture is 40mm to 1000mm"},
@@ -289,7 +289,7 @@ TEST_F(Replay, EmptiesNoOutputBeforeAllAreAllowed) {
   std::ofstream(text) << "notes of a person\n";
   const Ran ran = run({"replay", "e100001", "--store", store_, "--csv", table, "--svg", text});
   EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("notes.txt: is there already and is a text"));
+  EXPECT_THAT(ran.err, HasSubstr("notes.txt: already exists and is a text"));
   EXPECT_GT(std::filesystem::file_size(table), 0);
 }
 

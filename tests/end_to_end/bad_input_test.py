@@ -71,8 +71,8 @@ class CampaignFile(BadInput):
     def test_one_thing_wrong_is_one_line_with_its_place(self):
         cases = [
             (('[campaign]', '[campain]'), ':3:2: the file has no key `campain`'),
-            (('seed = 7', 'seed = "7"'), ":5:8: `seed` must be an integer, this is a text"),
-            (('seed = 7', 'seed = -7'), ":5:8: `seed` must be at least 0, this is -7"),
+            (('seed = 7', 'seed = "7"'), ":5:8: `seed` must be an integer, not a text"),
+            (('seed = 7', 'seed = -7'), ":5:8: `seed` must be at least 0, not -7"),
             (('"aggregation"', '"agregation"'), 'did you mean "aggregation"?'),
             (('"watermelon-argos3"', '"watermelo"'), 'did you mean "watermelon"?'),
             (('flavour =', 'behaviours = ["exploraton"]\nflavour ='), 'did you mean "exploration"?'),
@@ -117,7 +117,7 @@ class CampaignFile(BadInput):
                 self.assert_refused(2, sentence, "check", "campaign.toml")
         mission.write_text(good)
         for keys, sentence in [
-                ('[proximity]\nsd = -1\n', "my_rvr.toml:4:6: `sd` must be from 0 to 1, this is -1"),
+                ('[proximity]\nsd = -1\n', "my_rvr.toml:4:6: `sd` must be from 0 to 1, not -1"),
                 ('[timing]\njiter = 0\n', 'my_rvr.toml:4:1: [timing] has no key `jiter` (did you'),
                 ('[timing]\ndelays = [{ time = "20 ms", probability = 0.5 }]\n',
                  "my_rvr.toml:4:10: the probabilities of `delays` must sum to 1")]:
@@ -140,7 +140,7 @@ class CampaignFile(BadInput):
         self.file.write_bytes(b"")
         done = call("check", "campaign.toml", cwd=self.folder)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("campaign.toml:1:1: the file begins with its format: format = 1",
+        self.assertIn("campaign.toml:1:1: the file must begin with its format: format = 1",
                       done.stderr)
         self.file.write_bytes(bytes(range(256)) * 20)
         self.assert_refused(2, "this is not TOML", "check", "campaign.toml")
@@ -569,7 +569,7 @@ class Evaluate(BadInput):
         self.refused("--profile", *EXPLORE, *on, "--profile", "f")
         for seeds in ("5-1", "0", "1-", "a", "1,,2", "2147483648"):
             self.refused("--seeds: seeds are written like", *EXPLORE, *on, "--seeds", seeds)
-        self.refused("--seeds: seed 3 is there twice", *EXPLORE, *on, "--seeds", "3,3,3")
+        self.refused("--seeds: seed 3 occurs twice", *EXPLORE, *on, "--seeds", "3,3,3")
 
     def test_tables_that_are_wrong(self):
         good = ["1,0,0,0,0", "1,1,0.5,0,0", "1,2,0,0.5,0"]

@@ -144,7 +144,7 @@ class Commands(ProgramTest):
         self.assertIn("no design given", self.ask("extend", self.store, "--budget", "900", code=2))
         self.assertIn("no such design", self.ask("extend", self.store, "d9", "--budget", "900",
                                                  code=4))
-        self.assertIn("experiments more when",
+        self.assertIn("more experiments when",
                       self.ask("extend", self.store, "d1", "--budget", "900"))
         before = self.used(1)
         self.assertIn("extend", self.ask("status", self.store))

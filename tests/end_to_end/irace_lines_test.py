@@ -774,17 +774,17 @@ line("readconfs", "only a header is not a configuration",
 
 line("recovery", "the same command goes on", "", code=1, scenario={"maxExperiments": 200, "parallel": 1},
      runner="[ $(wc -l < calls.txt) -eq 100 ] && exit 3\nanswer $(( seed % 50 + x ))",
-     says=("the same command", "target-runner"), then=(("", 0, ("Going on after \\d+ experiments",)),
+     says=("the same command", "target-runner"), then=(("", 0, ("Continuing after \\d+ experiments",)),
            ("-l whole.Rdata", 0, ())), check=lambda ran: want(ran.best(1) == ran.best(2)))
 line("recovery", "of a budget of time", "", code=1,
      scenario={"maxExperiments": None, "maxTime": 500, "parallel": 1}, parameters=TIME_SPACE,
      runner="[ $(wc -l < calls.txt) -eq 100 ] && exit 3\n" + TIME, says="the same command",
-     then=(("", 0, ("Going on after",)), ("-l whole.Rdata", 0, ())),
+     then=(("", 0, ("Continuing after",)), ("-l whole.Rdata", 0, ())),
      check=lambda ran: want(ran.best(1) == ran.best(2)))
 line("recovery", "of a deterministic target", "", code=1,
      scenario={"deterministic": 1, "maxExperiments": 200, "parallel": 1},
      runner="[ $(wc -l < calls.txt) -eq 60 ] && exit 3\nanswer $(( number + x ))", says="the same command",
-     then=(("", 0, ("Going on after",)), ("-l whole.Rdata", 0, ())),
+     then=(("", 0, ("Continuing after",)), ("-l whole.Rdata", 0, ())),
      check=lambda ran: want(ran.best(1) == ran.best(2)))
 line("recovery", "a file to recover from is refused: the store is it", "--recovery-file irace.Rdata", code=1,
      says=("--recovery-file|recoveryFile", "same command"))
@@ -818,7 +818,7 @@ line("targeteval", "and the runner gives times",
 line("targeteval", "goes on where it stopped", "", code=1,
      scenario={**EVALUATED, "parallel": 1, "maxExperiments": 200}, parameters=ALGORITHM, files=EVALUATOR,
      runner="[ $(wc -l < calls.txt) -eq 58 ] && exit 3; :", says="the same command",
-     then=(("", 0, ("Going on after",)), ("-l whole.Rdata", 0, ())),
+     then=(("", 0, ("Continuing after",)), ("-l whole.Rdata", 0, ())),
      check=lambda ran: want(ran.best(1) == ran.best(2)))
 line("targeteval", "a runner that gives a cost beside it", code=1, scenario=EVALUATED, files=EVALUATOR,
      runner="answer 1 2", says=("target-runner", "1 2"))

@@ -300,7 +300,7 @@ class Survival(Irace):
         self.assertEqual(process.returncode, 130)
         self.assertIn("the same command continues", errors)
         done = self.irace()
-        self.assertIn(": Going on after ", done.stdout)
+        self.assertIn(": Continuing after ", done.stdout)
         self.assertEqual(len(set(self.calls())), len(self.query(
             "SELECT * FROM v_evaluations")))
 
@@ -322,7 +322,7 @@ class Failures(Irace):
         failed = self.calls()[40:]
         self.write_runner(PRINT)
         done = self.irace()
-        self.assertIn("Going on after", done.stdout)
+        self.assertIn("Continuing after", done.stdout)
         again = [line for line in set(self.calls()) if self.calls().count(line) > 1]
         self.assertEqual(set(again), set(failed))
         self.assert_clean()
@@ -543,7 +543,7 @@ class Variants(Irace):
         self.irace("--parallel", "3", code=1)
         self.write_runner("echo $cost $(( 1 + cost % 7 ))")
         done = self.irace("--parallel", "1")
-        self.assertIn("begun with --parallel 3", done.stderr)
+        self.assertIn("started with --parallel 3", done.stderr)
         self.assertEqual(self.best_lines(done.stdout), self.best_lines(whole.stdout))
         self.assertEqual(self.digest(), self.digest("whole.db"))
 
@@ -785,7 +785,7 @@ configuration,step,on_path,changed,pair,instance,seed,cost
         self.assertIn("# Step 1: x: 90 -> 30\n", done.stdout)
         self.assertTrue((self.folder / "irace-ablation-x1-from-first-to-last.db").exists())
         self.assertIn("irace-ablation-from1-to-last.db", self.irace("ablation", "-S", "1", "-T", "last.txt").stderr)
-        self.assertIn("has 2 configurations, and --ablation-target wants one", self.irace("ablation", "-T", "two.txt", code=1).stderr)
+        self.assertIn("has 2 configurations, and --ablation-target takes one", self.irace("ablation", "-T", "two.txt", code=1).stderr)
         self.assertIn("a file with one", self.irace("ablation", "-T", "none.txt", code=1).stderr)
         for words, advice in ((("-o", "log.Rdata"), "--ablation-csv"), (("--plot", "x.pdf"), "--ablation-csv"), (("-P", "x"), "leave it out")):
             self.assertIn(advice, self.irace("ablation", *words, code=1).stderr)

@@ -203,7 +203,7 @@ max_experiments = 1400
         ended_well(call("evaluate", "best", self.store, "--design", "d1", "--seeds", "1", "--no-store"))
         done = call("evaluate", "--nstates 1 --s0 1", self.store, "--flavour", "watermelon", "--mission", "aggregation")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("one word too many", done.stderr)
+        self.assertIn("unexpected word", done.stderr)
 
     def test_numbers_of_latex_are_mathematics(self):
         done = ended_well(call("compare", self.store, "--by", "method", "--paper", "latex"))

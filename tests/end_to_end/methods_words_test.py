@@ -122,10 +122,10 @@ class Words(ProgramTest):
 
     def test_experiment_files_are_of_machines_alone(self):
         store = self.store()
-        self.refused("the control software is a network, and .argos files of RVRs are of state machines "
-                     "alone", "export", store, "--design", "d3", "--format", "argos")
+        self.refused("the control software is a network, and .argos files of RVRs can hold only state "
+                     "machines", "export", store, "--design", "d3", "--format", "argos")
         done = ended_well(call("export", store, "--format", "argos", "-o", self.folder / "experiments"))
-        self.assertIn("2 of 5 are left out: .argos files are of state machines, and of trees for e-pucks", done.stderr)
+        self.assertIn("2 of 5 are left out: .argos files can hold state machines, and for e-pucks trees", done.stderr)
         written = sorted(path.name[:2] for path in (self.folder / "experiments").iterdir())
         self.assertEqual(written, ["d1", "d2", "d5"])
 
@@ -163,7 +163,7 @@ class Words(ProgramTest):
     def test_keys_of_another_search(self):
         done = self.check(method("evostick", "[method.cma-es]\npopulation = 10\n"))
         self.assertEqual(done.returncode, 2, done.stdout)
-        self.assertIn("[method.cma-es] is of the search cma-es", done.stderr)
+        self.assertIn("[method.cma-es] is for the search cma-es", done.stderr)
         done = self.check(method("evostick", "[method.evolution]\nwindow = 10\n"))
         self.assertEqual(done.returncode, 2, done.stdout)
         self.assertIn("window", done.stderr)

@@ -167,12 +167,12 @@ class Report(ProgramTest):
         there.mkdir()
         (there / "mine.txt").write_text("mine")
         for folder in (there, f"{there}/", self.file):
-            self.assertIn("is there already",
+            self.assertIn("already exists",
                           self.answer("supplement", self.store, "-o", folder, code=2))
         self.assertEqual([path.name for path in there.iterdir()], ["mine.txt"])
         link = self.folder / "link"
         link.symlink_to(self.folder / "not-there")
-        self.assertIn("is there already",
+        self.assertIn("already exists",
                       self.answer("supplement", self.store, "-o", link, code=2))
 
     def test_without_rsvg_convert_there_are_no_pdfs_and_that_is_said(self):

@@ -292,7 +292,7 @@ class Results(ProgramTest):
                      "--profile", profile, "--seeds", "3")
         self.done("evaluate", "best", other, "--profile", profile, "--seeds", "3")
         merged = self.folder / "merged.db"
-        self.assertIn("two.db: candidates were evaluated under a profile mine that is another one",
+        self.assertIn("two.db: candidates were evaluated under a profile mine that differs from the one",
                       self.noted("merge", store, other, "-o", merged))
         profile.unlink()  # the store has all of it
         first = self.query(merged, "SELECT id FROM v_evaluations WHERE source = 'mine' ORDER BY candidate, seed")[0]

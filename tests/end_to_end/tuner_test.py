@@ -97,7 +97,7 @@ class SpaceTest(unittest.TestCase):
         self.assertEqual(space.configuration_line({"m": None, "x": 1}), '1.0 "None"')
         for configuration, sentence in (({"y": 1}, "'y' is not a parameter of the space: it has x, m"), ({"xx": 1}, "did you mean 'x'"),
                                         ({"x": 2}, "x: 2 is not between 0.0 and 1.0"), ({"x": "a"}, "x: .* a number"),
-                                        ({"m": "b"}, "m: 'b' is none of its values")):
+                                        ({"m": "b"}, "m: 'b' is not one of its values")):
             with self.assertRaisesRegex(swarmsmith.SpaceError, sentence):
                 space.configuration_line(configuration)
 
@@ -288,7 +288,7 @@ class TunerTest(unittest.TestCase):
             with self.assertRaisesRegex(swarmsmith.CostError, "not a number"):
                 tuner.tell(trial.id, math.nan)
             tuner.fail(trial.id, "out of memory")
-            with self.assertRaisesRegex(swarmsmith.Error, "told already"):
+            with self.assertRaisesRegex(swarmsmith.Error, "already told"):
                 tuner.tell(trial.id, 1)
             with self.assertRaisesRegex(swarmsmith.Error, r"^trial 1 failed: out of memory; its configuration is \{'x': [^\n]*\}$"):
                 tuner.ask()
@@ -298,7 +298,7 @@ class TunerTest(unittest.TestCase):
         wrong_space, wrong_option = swarmsmith.SpaceError, swarmsmith.OptionError
         for kind, space, more, sentence in (
                 (wrong_space, {"a b": [1], "a_b": [2]}, {}, "are both a_b for irace"),
-                (wrong_space, {"a": ["x y", "x,y"]}, {}, "written alike"),
+                (wrong_space, {"a": ["x y", "x,y"]}, {}, "have the same text"),
                 (wrong_option, SPACE, {"test_instances": ["a"]}, "has no effect here"),
                 (wrong_option, SPACE, {"max_experiments": 10}, "^max_experiments: a budget of 10 experiments is too small"),
                 (wrong_option, SPACE, {"frist_test": 3}, '^frist_test: .*did you mean "first_test"'),
@@ -317,9 +317,9 @@ class TunerTest(unittest.TestCase):
                 (wrong_option, SPACE, {"mu": math.nan}, "^mu: a number"),
                 (wrong_option, SPACE, {"mu": 10**400}, "^mu: a number"),
                 (wrong_space, SPACE, {"initial": {"x": 0.2}}, "^initial: a list"),
-                (wrong_space, SPACE, {"initial": [0.2]}, r"^initial\[0\]: a configuration is a dictionary"),
+                (wrong_space, SPACE, {"initial": [0.2]}, r"^initial\[0\]: a configuration must be a dictionary"),
                 (wrong_space, SPACE, {"forbidden": "x > 0.9"}, "^forbidden: a list"),
-                (wrong_space, SPACE, {"forbidden": [3]}, r"^forbidden\[0\]: a condition is a text"),
+                (wrong_space, SPACE, {"forbidden": [3]}, r"^forbidden\[0\]: a condition must be a text"),
                 (wrong_space, SPACE, {"initial": [{"x": 0.5, "y": 1}]}, r"^initial\[0\]: 'y' is not a parameter"),
                 (wrong_space, names, {"initial": [{"learning-rate": 0.6}]}, r"^initial\[0\]: .*'k'"),
                 (wrong_space, names, {"forbidden": ["k > ["]}, r"^forbidden: k > \[: found"),
@@ -375,10 +375,10 @@ class TunerTest(unittest.TestCase):
                 ([{"space": {"x": {"type": "foo"}}}], "line 1: x: .*one of real, integer, categorical, ordinal"),
                 ([{"space": {"x": {"type": "real", "lower": 0}}}], "line 1: x: `upper` is missing"),
                 ([{"space": {"x": {**real, "uper": 1}}}], "line 1: x: `uper` is not known"),
-                ([{"space": {"x": {**real, "when": 3}}}], "line 1: x: when: a condition is a text"),
+                ([{"space": {"x": {**real, "when": 3}}}], "line 1: x: when: a condition must be a text"),
                 ([{**first, "parallel": "a"}], "line 1: parallel: a whole number"),
-                ([first], "line 2: the input ended, and an answer to trial 1 was wanted: the run is not over"),
-                ([first, {"tel": []}], "line 2: `tell` is missing"), ([first, {"tell": [1]}], "line 2: `tell` is a list of objects"),
+                ([first], "line 2: the input ended before an answer to trial 1: the run is not over"),
+                ([first, {"tel": []}], "line 2: `tell` is missing"), ([first, {"tell": [1]}], "line 2: `tell` must be a list of objects"),
                 ([first, {"tell": [{"id": 1, "cost": math.nan}]}], "line 2: the cost of trial 1 is NaN: .* null"),
                 ([first, {"tell": [{"id": [1], "cost": 1}]}], r"line 2: trial \[1\] was not asked"),
                 ([first, {"tell": [{"id": 1, "cost": 1, "time": "a"}]}], "line 2: the time of trial 1 is 'a'")):

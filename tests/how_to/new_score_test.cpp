@@ -49,7 +49,7 @@ TEST(NewScore, IsRefusedWithLineAndColumn) {
               ElementsAre(HasSubstr("5:28: [mission.score] has no key `fre` (did you mean "
                                     "\"free\"?)")));
   EXPECT_THAT(said("kind = \"spread\", free = -1"),
-              ElementsAre(HasSubstr("5:35: `free` must be from 0 to 100, this is -1")));
+              ElementsAre(HasSubstr("5:35: `free` must be from 0 to 100, not -1")));
 }
 
 TEST(NewScore, GoesToAWorkerAndBack) {

@@ -150,7 +150,7 @@ TEST(Repair, MustStayInTheSpace) {
   EXPECT_THAT(outside.message, ::testing::HasSubstr("x: "));
   const Error short_one =
       refused([](const Configuration&) -> Expected<Configuration> { return Configuration(1); });
-  EXPECT_THAT(short_one.message, ::testing::HasSubstr("not one value for each parameter"));
+  EXPECT_THAT(short_one.message, ::testing::HasSubstr("not have one value for each parameter"));
   const Error failed = refused([](const Configuration&) -> Expected<Configuration> {
     return bad_input("no such luck", "the program");
   });

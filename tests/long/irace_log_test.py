@@ -203,7 +203,7 @@ class IraceLog(unittest.TestCase):
 
     def test_what_is_no_log_is_refused_with_the_reason(self):
         other = self.folder / "other.Rdata"
-        for make, sentence in [(lambda: other.write_text("no log"), "this is not a file of R's"),
+        for make, sentence in [(lambda: other.write_text("no log"), "this is not an R file"),
                                (lambda: self.r("-e", f'x <- 1; save(x, file = "{other}")'),
                                 "it has no iraceResults")]:
             make()

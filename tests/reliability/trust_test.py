@@ -65,7 +65,7 @@ class CutOut(Trust):
         self.assertRegex(self.said("recover", self.store, "--without-key", "nokey", "-o", honest, code=4), "are: .*liar")
         self.assertFalse(honest.exists())
         self.assertRegex(self.said("recover", self.store, "--without-key", "liar", "-o", honest),
-                         r"[1-9]\d* evaluations of 1 workers were taken away")
+                         r"[1-9]\d* evaluations of 1 workers were removed")
         self.store = honest
         self.assertEqual(self.quarantine()[0]["who"], "liar")
         serving = self.serve("--keys", self.keys)
@@ -116,7 +116,7 @@ class Forgiven(Trust):
         self.assertEqual(honest.wait(60), 7, honest.tail())
         self.assertIn("swarmsmith forgive", honest.log())
         self.assertIn("these are: node7@", self.said("forgive", self.store, "node8", *reader, code=4))
-        self.assertIn("in quarantine no longer", self.said("forgive", self.store, "node7", *reader))
+        self.assertIn("no longer in quarantine", self.said("forgive", self.store, "node7", *reader))
         # The status is that of the coordinator's last look, some tenths of a second ago.
         wait_for(lambda: self.quarantine(*reader) == [], "a status without a quarantine")
         honest = self.worker(serving.address(), *self.key)
@@ -143,7 +143,7 @@ class Forgiven(Trust):
         self.assertEqual(refused.wait(60), 7, refused.tail())
         serving.send(signal.SIGINT)
         self.assertEqual(serving.wait(), 130, serving.tail())
-        self.assertIn("in quarantine no longer", self.said("forgive", self.store, "node7"))
+        self.assertIn("no longer in quarantine", self.said("forgive", self.store, "node7"))
         self.assertEqual(self.quarantine(), [])
         self.said("forgive", self.store, "node7", code=4)
         # Forgiven is forgiven after a restart too.

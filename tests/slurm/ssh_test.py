@@ -142,7 +142,7 @@ class Ssh(SshTest):
         self.campaign("node1 slot=1\n")
         done = self.run_to_its_end()
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn(f"{self.hosts}:1:7: `slot=1` is none of slots=N", done.stderr)
+        self.assertIn(f"{self.hosts}:1:7: `slot=1` is not one of slots=N", done.stderr)
         done = self.run_to_its_end("--workers", "ssh:nowhere")
         self.assertIn("nowhere: there is no such host file", done.stderr)
         self.assertNotEqual(done.returncode, 0)

@@ -163,8 +163,8 @@ TEST_F(OpeningTest, RefusesTextsThatAreLongerThanAnyOfOurs) {
       set(most + 1);
       EXPECT_EQ(reader_refusal().kind, ErrorKind::Corrupt);
       EXPECT_EQ(reader_refusal().message,
-                fmt::format("a {} in the store's table {} has {} bytes; a store has {} at most",
-                            column, table, most + 1, most));
+                fmt::format("a {} in the store's table {} has {} bytes; the limit is {}", column,
+                            table, most + 1, most));
     }
   }
 }

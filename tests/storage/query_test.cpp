@@ -219,7 +219,7 @@ TEST_F(QueryTest, FindsNoFaultInASoundStoreAndSaysWhatIsWrongInAnother) {
   sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE)
       .execute("PRAGMA foreign_keys = OFF; DELETE FROM candidate WHERE id = 1");
   EXPECT_THAT(reader->integrity(),
-              Contains("rows of evaluation name rows of candidate that do not exist: 5"));
+              Contains("rows of evaluation refer to rows of candidate that do not exist: 5"));
 }
 
 }  // namespace

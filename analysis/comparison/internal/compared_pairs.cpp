@@ -66,7 +66,7 @@ void add_notes(ComparedPair& pair) {
     pair.notes.push_back(
         fmt::format("n is small: an interval of fewer than {} values is too narrow", kFewValues));
   if (pair.test.zeros > 0 && pair.test.p_value)
-    pair.notes.push_back(fmt::format("differences of zero, which say nothing to the test: {} of {}",
+    pair.notes.push_back(fmt::format("differences of zero, which the test does not use: {} of {}",
                                      pair.test.zeros, pair.n_first));
   if (pair.test.p_value && pair.test.least_p > kTestLevel) {
     pair.notes.push_back(

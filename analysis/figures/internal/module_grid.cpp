@@ -116,7 +116,7 @@ class GridDrawing {
   std::string explained() const {
     std::string text =
         "Number: occurrences in a machine, on average; shade: share of the machines that have the "
-        "module, from 0 (white) to 100 % (dark); n: machines a column, the winners of finished "
+        "module, from 0 (white) to 100 % (dark); n: machines per column, the winners of finished "
         "designs";
     const auto lacks = [](const ModuleChart::Column& column) {
       return std::ranges::any_of(column.cells, [](const auto& cell) { return !cell; });

@@ -138,10 +138,9 @@ Expected<ParameterTable> read_parameter_table(StoreReader& store, DesignId desig
   ParameterTable table = parameter_table(std::move(*all), *records);
   if (table.columns.empty() && !table.candidates.empty() &&
       is_network(store, table.candidates.front().candidate)) {
-    return bad_input(
-        to_string(design) +
-        " searched the weights of a neural network, which have no names to be drawn by; "
-        "`figure machine` draws the winner's");
+    return bad_input(to_string(design) +
+                     " searched the weights of a neural network, which have no names to show; "
+                     "`figure machine` draws the winner's");
   }
   if (table.columns.empty()) {
     return unexpected(ErrorKind::NotFound,

@@ -142,7 +142,7 @@ Expected<GroupedScores> grouped_scores(StoreReader& store, const FigureOptions& 
   if (!scores) return Unexpected(scores.error());
   if (scores->empty()) {
     return unexpected(ErrorKind::NotFound,
-                      "no finished design of these has a score outside of its race yet; "
+                      "no finished design among these has a score outside of its race yet; "
                       "`swarmsmith ls designs` shows how far they are");
   }
   if (!options.source.empty()) {

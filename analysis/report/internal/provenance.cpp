@@ -21,7 +21,7 @@ void write_campaigns(ReportDraft& draft) {
 }
 
 void write_work(ReportDraft& draft) {
-  draft.table("Evaluations (v_evaluations). What they took is the sum over all workers.",
+  draft.table("Evaluations (v_evaluations). Times are sums over all workers.",
               {{"purpose"},
                {"source"},
                {"evaluations", Show::Count},
@@ -48,19 +48,19 @@ void write_work(ReportDraft& draft) {
 }
 
 void write_faults(ReportDraft& draft) {
-  draft.table("Attempts that gave nothing (v_failures).",
+  draft.table("Attempts without a result (v_failures).",
               {{"reason"}, {"attempts", Show::Count}, {"candidates", Show::Count}},
               "SELECT reason, count(*), count(DISTINCT candidate) FROM v_failures GROUP BY reason "
               "ORDER BY count(*) DESC, reason",
               50);
-  draft.table("Leases that did not simply end with their result (v_attempts).",
+  draft.table("Leases that did not end with their result (v_attempts).",
               {{"outcome"}, {"leases", Show::Count}},
               "SELECT outcome, count(*) FROM v_attempts GROUP BY outcome ORDER BY outcome");
-  draft.table("What people asked of the campaign (v_commands).",
+  draft.table("Commands that people gave (v_commands).",
               {{"number", Show::Count},
                {"command"},
                {"design", Show::Design},
-               {"experiments more", Show::Count},
+               {"more experiments", Show::Count},
                {"acted at step", Show::Count},
                {"by"},
                {"at (UTC)"}},
@@ -78,7 +78,7 @@ void write_provenance(ReportDraft& draft) {
   const auto totals = draft.take(
       view_facts(draft.store(),
                  "SELECT 'evaluations with two results', sum(conflicts) FROM v_campaign_status "
-                 "UNION ALL SELECT 'attempts that gave nothing', count(*) FROM v_failures"));
+                 "UNION ALL SELECT 'attempts without a result', count(*) FROM v_failures"));
   facts.insert(facts.end(), totals.begin(), totals.end());
   page.facts("The store.", facts);
   page.paragraph(

@@ -29,22 +29,23 @@ constexpr Kind kKinds[] = {
      "any "
      "browser, offline"},
     {"designs/*.html", "designs/", ".html",
-     "a page a design: its winner, race, elites, parameters"},
+     "one page per design: its winner, race, elites, parameters"},
     {"results.csv", "results.csv", "",
-     "a row a score that a winner got after its race: design, mission, method, repetition, "
+     "one row per score that a winner got after its race: design, mission, method, repetition, "
      "candidate, source (the simulator's profile, `real`, ...), purpose, instance, seed, score"},
     {"p-values.csv", "p-values.csv", "",
-     "a row a pair of sources or methods of a mission: the test, n, statistic, p value, the p "
+     "one row per pair of sources or methods of a mission: the test, n, statistic, p value, the p "
      "value "
      "by Holm, effect size, difference of means with its bootstrap interval"},
     {"ranks.csv", "ranks.csv", "",
      "mean ranks of sources and methods over missions, with Friedman's test"},
-    {"designs.csv", "designs.csv", "", "a row a design: budget, seed, winner, why it ended"},
+    {"designs.csv", "designs.csv", "", "one row per design: budget, seed, winner, why it ended"},
     {"leaderboard.csv", "leaderboard.csv", "", "the winners, ranked by mission"},
     {"modules.csv", "modules.csv", "",
      "how often the winners of a mission and method have each module, in all states and in those "
      "that can be reached"},
-    {"campaign*.toml", "campaign", ".toml", "what was asked: the campaign file, all keys written"},
+    {"campaign*.toml", "campaign", ".toml",
+     "what was asked: the campaign file, with all keys written out"},
     {"instances/*-starts.csv", "instances/", "-starts.csv",
      "where each robot started in each seed of a mission: metres, radians; `evaluate --starts` "
      "reads it"},

@@ -77,8 +77,8 @@ Expected<Program> program_of(const Controller& controller) {
                    find_flavour("maple-epuck").value()};
   }
   return bad_input(
-      "the control software is a network, and .argos files of e-pucks are of state machines and "
-      "trees");
+      "the control software is a network, and .argos files of e-pucks can hold only state machines "
+      "and trees");
 }
 
 /// The devices of the published files, with the profile's noise. The attribute for the noise of the
@@ -174,7 +174,8 @@ Expected<std::string> argos_experiment_of_epucks(const ArgosExperiment& experime
   const auto functions = loop_functions_of(mission);
   if (!functions) return Unexpected(functions.error());
   if (mission.arena.lights.size() > 1)
-    return bad_input("an experiment file has one light, and the mission " + mission.name + " more");
+    return bad_input("an experiment file has one light, and the mission " + mission.name +
+                     " has more");
   if (!experiment.profile.ranges.empty()) {
     return bad_input("an experiment file has numbers, and the profile " + experiment.profile.name +
                      " has ranges, which are drawn for each run (docs/profiles.md)");

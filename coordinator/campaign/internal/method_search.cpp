@@ -54,7 +54,7 @@ void read_pair(TableReader& table, Method& method, bool is_file) {
     for (const std::string_view key : {"architecture", "search"}) {
       table.take(key);
       if (!table.has(key)) continue;
-      table.complain(key, "`method = \"" + *name + "\"` says architecture and search already: " +
+      table.complain(key, "`method = \"" + *name + "\"` sets architecture and search already: " +
                               std::string(name_of(method.architecture)) + " and " +
                               std::string(name_of(kind_of(method.search))) +
                               "; leave one of them out");
@@ -80,7 +80,7 @@ void read_pair(TableReader& table, Method& method, bool is_file) {
   if (is_file && method.architecture != Architecture::Machine) {
     table.complain(
         table.has("method") ? "method" : "architecture",
-        "a parameter file says what is searched; a method with one has a `search` and no "
+        "a parameter file defines what is searched; a method with one has a `search` and no "
         "architecture");
   }
 }
@@ -150,7 +150,7 @@ void read_numbers(TableReader& table, Method& method) {
     table.take(name);
     if (!table.has(name)) continue;
     if (kind != own) {
-      table.complain(name, "[method." + name + "] is of the search " + name +
+      table.complain(name, "[method." + name + "] is for the search " + name +
                                ", and this method's search is " + std::string(name_of(own)));
       continue;
     }
@@ -192,12 +192,12 @@ void read_network(TableReader& table, Method& method) {
     if (method.inputs == NetworkInputs::Rm12 && flavour &&
         (*flavour)->find(Module::Phototaxis) == nullptr) {
       network->complain("inputs", "the inputs rm1.2 read light sensors, which the flavour " +
-                                      method.flavour + " has not: take rvr or rvr-gray");
+                                      method.flavour + " does not have: use rvr or rvr-gray");
     }
     if (method.inputs == NetworkInputs::Rm11 && flavour && !has_strengths) {
       network->complain("inputs",
                         "the inputs rm1.1 are strengths of single sensors, which the flavour " +
-                            method.flavour + " has not: take other inputs");
+                            method.flavour + " does not have: use other inputs");
     }
   }
   if (const auto most = network->number("most_weight", {0.01, 1000})) method.most_weight = *most;

@@ -59,7 +59,7 @@ const Flavour* read_flavour(TableReader& table, const std::filesystem::path& fol
   }
   if (word != nullptr && *word == "vanilla") {
     table.complain("flavour",
-                   "vanilla is a way to search, and no flavour: write `method = \"vanilla\"` and "
+                   "vanilla is a search, not a flavour: write `method = \"vanilla\"` and "
                    "the flavour that it searches");
     return nullptr;
   }
@@ -119,7 +119,7 @@ std::optional<RangeOverride> read_range(TableReader& entry, const ModuleSpec& mo
   if (entry.has("digits")) {
     entry.take("digits");
     entry.complain("digits",
-                   "digits for one parameter are not there yet; `digits` in [race] holds "
+                   "digits for one parameter are not supported yet; `digits` in [race] holds "
                    "for all reals");
   }
   const auto range = entry.interval(type);
@@ -149,9 +149,9 @@ void read_module_ranges(TableReader& table, const ModuleSpec& module, Method& me
     if (!table.has(parameter.name)) continue;
     if (parameter.type == ParameterSpec::Type::Label) {
       table.take(parameter.name);
-      table.complain(parameter.name,
-                     "a label is one of the flavour's colours; a choice among them "
-                     "is not there yet");
+      table.complain(
+          parameter.name,
+          "a label is one of the flavour's colours; a choice among them is not supported yet");
       continue;
     }
     auto entry = table.table(parameter.name);

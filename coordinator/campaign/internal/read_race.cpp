@@ -48,7 +48,7 @@ void read_numbers(TableReader& race, Scenario& scenario) {
 bool check_budgets(TableReader& race, const Scenario& scenario, bool has_target) {
   if (scenario.max_time > 0 && !has_target) {
     race.complain("max_time",
-                  "`max_time` needs a target that says how long its runs took: [simulator] with "
+                  "`max_time` needs a target that reports how long its runs took: [simulator] with "
                   "kind = \"command\"; the simulator's budget is `max_experiments`");
   } else if (scenario.max_time > 0 && scenario.max_experiments > 0) {
     race.complain("max_time", "give `max_experiments` or `max_time`, not both");

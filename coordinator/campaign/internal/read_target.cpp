@@ -35,8 +35,8 @@ std::string read_runner(TableReader& simulator, const fs::path& folder) {
   }
   if (words->size() != 1 || words->front().empty()) {
     simulator.complain("command",
-                       "`command` must name one program; an interpreter before it is `launcher`, "
-                       "and what follows it is `command_line`");
+                       "`command` must name one program; an interpreter before it goes into "
+                       "`launcher`, and what follows it into `command_line`");
     return {};
   }
   return program_path(words->front(), folder);
@@ -70,7 +70,7 @@ std::vector<std::string> read_instances(TableReader& table, std::string_view key
   const std::string_view used = table.has(key) ? key : std::string_view(file_key);
   if (instances->empty()) table.complain(used, "`" + std::string(used) + "` has no instance");
   if (static_cast<std::int64_t>(instances->size()) > kMostInstances) {
-    table.complain(used, "at most " + std::to_string(kMostInstances) + " instances are taken");
+    table.complain(used, "at most " + std::to_string(kMostInstances) + " instances are allowed");
   }
   return std::move(*instances);
 }
@@ -119,8 +119,9 @@ Target read_target(TableReader& simulator, const fs::path& folder) {
     target.batch_mode = static_cast<BatchMode>(place);
   }
   if (target.batch_mode != BatchMode::None && target.evaluator.empty()) {
-    simulator.complain("batch_mode",
-                       "`batch_mode` needs an `evaluator`: the runner's jobs only say their ids");
+    simulator.complain(
+        "batch_mode",
+        "`batch_mode` needs an `evaluator`: the runner prints only the ids of its jobs");
   }
   return target;
 }

@@ -11,7 +11,7 @@ Expected<std::string> read_switch(LineReader& line) {
   const std::size_t end = rest.empty() || rest[0] != '"' ? 0 : rest.find('"', 1);
   const bool closed = end != 0 && end != std::string_view::npos;
   if (!closed || (end + 1 < rest.size() && !is_blank(rest[end + 1]))) {
-    return line.expected("the switch in double quotes and a blank behind it");
+    return line.expected("the switch in double quotes and a blank after it");
   }
   line.advance(end + 1);
   return std::string(rest.substr(1, end - 1));
@@ -23,7 +23,7 @@ Expected<void> read_type(LineReader& line, ParameterLine& parameter) {
   const std::string_view word = word_reader.take_word();
   if (std::find(kTypes.begin(), kTypes.end(), word) == kTypes.end()) {
     return line.expected(
-        "the type and a blank behind it: c (categorical), o (ordinal), i (integer), r (real), "
+        "the type and a blank after it: c (categorical), o (ordinal), i (integer), r (real), "
         "i,log or r,log (without a blank)");
   }
   parameter.type = word.front();
@@ -78,7 +78,7 @@ Expected<ParameterLine> read_parameter_line(LineReader& line) {
   parameter.name.text = std::string(name_reader.take_name());
   const bool ends = name_reader.at_end() || is_blank(name_reader.rest().front());
   if (parameter.name.text.empty() || !ends) {
-    return line.expected("a parameter's name (letters, digits, '_' and '.') and a blank behind it");
+    return line.expected("a parameter's name (letters, digits, '_' and '.') and a blank after it");
   }
   line = name_reader;
   line.skip_blanks();
@@ -123,7 +123,7 @@ Expected<std::vector<std::string>> read_choices(const Piece& domain, const std::
     const std::size_t behind = opens ? rest.find('"', 1) + 1 : 0;
     const std::size_t comma = std::min(rest.find(',', behind), rest.size());
     if (opens && (quoted == 0 || !trimmed(rest.substr(behind, comma - behind)).empty())) {
-      return bad_input("expected ',' or ')' behind the closing quote of a value, found \"" +
+      return bad_input("expected ',' or ')' after the closing quote of a value, found \"" +
                            std::string(trimmed(rest.substr(behind))) + "\"",
                        where);
     }
@@ -138,7 +138,7 @@ Expected<std::vector<std::string>> read_choices(const Piece& domain, const std::
         values.emplace_back(value);
       }
       if (more && value.size() < comma && !value.empty()) {
-        warn("the blanks behind the value '" + std::string(value) +
+        warn("the blanks after the value '" + std::string(value) +
              "' are left out; R would keep them");
       }
     }

@@ -21,9 +21,9 @@ std::optional<std::string> complaint_about_program(const fs::path& program) {
   std::error_code error;
   const auto status = fs::status(program, error);
   if (!fs::exists(status)) return "there is no such program: " + program.string();
-  if (fs::is_directory(status)) return program.string() + " is a folder; a program is wanted";
+  if (fs::is_directory(status)) return program.string() + " is a folder; name a program";
   if (::access(program.c_str(), X_OK) != 0) {
-    return program.string() + " cannot be run; make it a program by `chmod +x " + program.string() +
+    return program.string() + " is not executable; make it so with `chmod +x " + program.string() +
            "`";
   }
   return std::nullopt;

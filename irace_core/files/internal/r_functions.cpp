@@ -151,8 +151,9 @@ Expected<Vector> substitute(const Node& node, const Arguments& given, bool all) 
         text = std::regex_replace(text, std::regex(*pattern, flags), replacement_of(*replacement),
                                   first);
       } catch (const std::regex_error&) {
-        return wrong(node, "the pattern \"" + *pattern +
-                               "\" is not one that is read here; with fixed = TRUE it is a text");
+        return wrong(node,
+                     "the pattern \"" + *pattern +
+                         "\" is not supported here; with fixed = TRUE it is read as plain text");
       }
     }
     length += text.size();
@@ -171,10 +172,10 @@ Expected<std::string> formatted(const Node& node, const std::string& part, const
   if (kind == 's') {
     written = std::snprintf(buffer.data(), buffer.size(), part.c_str(), to_text(value).c_str());
   } else if (value.type == Scalar::Type::Text || value.missing) {
-    return wrong(node, "sprintf: " + part + " wants a number, found " + to_text(value));
+    return wrong(node, "sprintf: " + part + " must be a number, found " + to_text(value));
   } else if (std::string_view("dixX").find(kind) != std::string_view::npos) {
     if (value.number != std::floor(value.number) || std::fabs(value.number) > 9e15)
-      return wrong(node, "sprintf: " + part + " wants a whole number, found " + to_text(value));
+      return wrong(node, "sprintf: " + part + " must be a whole number, found " + to_text(value));
     written = std::snprintf(buffer.data(), buffer.size(), (flags + "ll" + kind).c_str(),
                             static_cast<long long>(value.number));
   } else {

@@ -116,7 +116,7 @@ Expected<void> read_escape(std::string_view text, std::size_t& i, std::string& v
     const bool closed = !braces || at(text, i) == '}';
     if (i == first || !closed || code == 0 || code > 0x10FFFF) {
       return bad_input(
-          "the escape \\" + std::string(1, letter) + " needs the number of a character behind it",
+          "the escape \\" + std::string(1, letter) + " needs the number of a character after it",
           where);
     }
     if (braces) ++i;

@@ -37,9 +37,9 @@ void check_programs(SetupWork& work) {
     if (const auto complaint = complaint_about_program(*program)) work.complain(option, *complaint);
   }
   if (setup.batchmode != "0" && setup.target_evaluator.empty()) {
-    work.complain("batchmode",
-                  "needs `targetEvaluator`: the program that says the costs when the "
-                  "jobs are done");
+    work.complain(
+        "batchmode",
+        "needs `targetEvaluator`: the program that prints the costs when the jobs are done");
   }
 }
 

@@ -63,7 +63,7 @@ void warn_about_old_folder(SetupWork& work) {
   if (!fs::exists(absolute_path(first, folder), ignored)) return;
   work.warn("`trainInstancesDir` is not set: irace 3.5 would put " + folder.string() +
             "/ before each instance, irace 4 does not; write trainInstancesDir = \"" +
-            std::string(kOldFolder) + "\" if it is to be so");
+            std::string(kOldFolder) + "\" to get the same");
 }
 
 void read_training(SetupWork& work) {

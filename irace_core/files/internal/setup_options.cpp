@@ -29,7 +29,7 @@ fs::path program_path(SetupWork& work, const IraceSetting& setting, const std::s
   std::error_code ignored;
   if (program != beside && fs::exists(beside, ignored)) {
     work.warn(setting.where + ": `" + name + "` is " + program.string() +
-              ", which PATH leads to; write `./" + name + "` for " + beside.string());
+              ", found in PATH; write `./" + name + "` for " + beside.string());
   }
   return program;
 }

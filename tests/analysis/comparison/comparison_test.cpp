@@ -90,9 +90,8 @@ std::vector<DesignScore> under_two_profiles(std::int64_t first_seed) {
 
 TEST(Comparison, SaysThatPairedDesignsRanOnOtherSeeds) {
   const std::string note =
-      "the seeds of pseudo-reality and rvr differ in 6 of 6 designs, so a part of the difference "
-      "may "
-      "be theirs";
+      "the seeds of pseudo-reality and rvr differ in 6 of 6 designs, so part of the difference may "
+      "come from the seeds";
   const Comparison other = compare(under_two_profiles(2), {.by = CompareBy::Source});
   EXPECT_THAT(other.pairs.front().notes, Contains(note));
   EXPECT_THAT(other.seeds, ElementsAre(note));

@@ -107,10 +107,11 @@ TEST(MethodMatrix, SaysWhereValuesAreTooFewForOtherLetters) {
   EXPECT_THAT(matrix_notes(compare(scores, {.by = CompareBy::Method})), IsEmpty());
   std::erase_if(scores, [](const DesignScore& score) { return score.repetition > 4; });
   const Comparison comparison = compare(scores, {.by = CompareBy::Method});
-  EXPECT_THAT(matrix_notes(comparison),
-              ElementsAre("aggregation, grid: values are too few for 3 tests together: after the "
-                          "correction even the clearest difference would have a p of 0.0857; that "
-                          "methods share a letter says nothing there"));
+  EXPECT_THAT(
+      matrix_notes(comparison),
+      ElementsAre("aggregation, grid: too few values for 3 tests together: after the "
+                  "correction even the clearest difference would have a p of 0.0857; a shared "
+                  "letter means nothing there"));
   // All six pairs are corrected together there.
   EXPECT_THAT(comparison.pairs.front().notes, Contains(HasSubstr("a p of 0.171")));
 }

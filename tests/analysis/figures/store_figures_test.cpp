@@ -76,7 +76,7 @@ TEST_F(StoreFigures, ARaceThatGoesOnIsDrawnAsFarAsItIs) {
   store.reset();
   reader = open_reader(folder / "part.db");
   const Figure figure = made("race", {});
-  EXPECT_THAT(figure.svg, HasSubstr("iteration 2 (goes on)"));
+  EXPECT_THAT(figure.svg, HasSubstr("iteration 2 (still running)"));
   const DrawnPage page = drawn_page(figure.svg);
   EXPECT_EQ(page.bars_of("#222222").size(), 3U);  // elites of before alone
   EXPECT_THAT(page.collisions(), IsEmpty());

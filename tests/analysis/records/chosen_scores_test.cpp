@@ -37,9 +37,10 @@ TEST(ChosenScores, SaysWhereSourcesHaveOtherSeeds) {
   scores.push_back(run_of(2, "argos3", 7));
   scores.push_back(run_of(3, "rvr", 1));  // in one source alone
   scores.push_back(run_of(3, "real", 9));
-  EXPECT_EQ(*seeds_differ(scores, "rvr", "argos3"),
-            "the seeds of rvr and argos3 differ in 1 of 2 designs, so a part of the difference may "
-            "be theirs");
+  EXPECT_EQ(
+      *seeds_differ(scores, "rvr", "argos3"),
+      "the seeds of rvr and argos3 differ in 1 of 2 designs, so part of the difference may come "
+      "from the seeds");
   EXPECT_FALSE(seeds_differ(scores, "rvr", "real"));  // robots have no seeds
 }
 

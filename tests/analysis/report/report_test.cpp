@@ -83,7 +83,7 @@ TEST_F(ReportTest, ListsWhatItsContentsPromise) {
 TEST_F(ReportTest, BeginsWithTheResultAndEndsWithSettingsFoldedAway) {
   const std::string text = report();
   std::size_t at = 0;
-  for (const char* part : {"Asked: which machines", ">Result<", "<title>Scores", " scored ",
+  for (const char* part : {"Question: which machines", ">Result<", "<title>Scores", " scored ",
                            "The same for LaTeX", ">Scores<", ">Races<", "<details>"}) {
     const std::size_t next = text.find(part, at);
     ASSERT_NE(next, std::string::npos) << part;

@@ -72,7 +72,7 @@ TEST(CsvTable, NamesEveryBadRowByItsLine) {
   const auto table = parse_csv("a,b,a\n1,2,3\n1,2\n1,2,3,4\n", "t.csv");
   ASSERT_FALSE(table);
   ASSERT_EQ(table.error().size(), 3U);
-  EXPECT_EQ(to_string(table.error()[0]), "t.csv:1: the column a is there twice");
+  EXPECT_EQ(to_string(table.error()[0]), "t.csv:1: the column a occurs twice");
   EXPECT_EQ(to_string(table.error()[1]), "t.csv:3: the row has 2 fields, the headline 3");
   EXPECT_EQ(to_string(parse_csv("a,b\n1\n", "t.csv").error().front()),
             "t.csv:2: the row has 1 field, the headline 2");

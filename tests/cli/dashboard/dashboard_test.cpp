@@ -410,7 +410,8 @@ TEST_F(DashboardTest, MoreHeavyQuestionsThanFitAreTurnedAway) {
       request.parameters["sql"] = endless + " WHERE i <> " + std::to_string(-i);
       request.is_gone = [&] { return gone.load(); };
       const SiteAnswer answer = site_->answer(request);
-      const bool busy = answer.body.find("too much is being computed") != std::string::npos;
+      const bool busy =
+          answer.body.find("too many answers are being computed") != std::string::npos;
       busy ? ++refused : ++answered;
       if (busy) {
         bool says_when = false;

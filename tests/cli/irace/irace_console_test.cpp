@@ -137,7 +137,7 @@ TEST_F(ConsoleOfAStore, TellsBrieflyWhatWasAndGoesOnInTheTable) {
   ASSERT_TRUE(irace.go_on_from(*reader()));
   EXPECT_EQ(
       out_.str(),
-      "# DATE: Going on after 7 experiments\n"
+      "# DATE: Continuing after 7 experiments\n"
       "# Iteration 1 of 2: experimentsUsed: 5, best configuration: 2, mean value: 9.4\n"
       "# DATE: Iteration 2 of 2\n"
       "# experimentsUsed: 5\n"

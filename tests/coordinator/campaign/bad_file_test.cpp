@@ -30,11 +30,11 @@ const Mistake kMistakes[] = {
      "in/x.toml:3:1: [campaign] has no key `sead` (did you mean \"seed\"?)"},
     {"TypeOfSeed",
      {.campaign = "seed = \"3\"\n"},
-     "in/x.toml:3:8: `seed` must be an integer, this is a text"},
+     "in/x.toml:3:8: `seed` must be an integer, not a text"},
     {"NegativeSeed", {.campaign = "seed = -1\n"}, "in/x.toml:3:8: `seed` must be at least 0"},
     {"NoRepetitions",
      {.campaign = "repetitions = 0\n"},
-     "in/x.toml:3:15: `repetitions` must be from 1 to 100000, this is 0"},
+     "in/x.toml:3:15: `repetitions` must be from 1 to 100000, not 0"},
     {"NameWithBlanks", {.campaign = "name = \"a b\"\n"}, "in/x.toml:3:8: a name consists of"},
     {"UnknownMission",
      {.mission = "name = \"agregation\"\n"},
@@ -50,7 +50,7 @@ const Mistake kMistakes[] = {
      "in/x.toml:5:12: `duration` must be a time with its unit"},
     {"DurationAsNumber",
      {.mission = "name = \"aggregation\"\nduration = 120\n"},
-     "in/x.toml:5:12: `duration` must be a text in quotes, this is an integer"},
+     "in/x.toml:5:12: `duration` must be a text in quotes, not an integer"},
     {"DurationBetweenCycles",
      {.mission = "name = \"aggregation\"\nduration = \"0.25 s\"\n"},
      "in/x.toml:5:12: `duration` must be a multiple of the control period"},
@@ -78,7 +78,7 @@ const Mistake kMistakes[] = {
      "in/x.toml:5:21: [[mission.arena.spots]] needs `diameter`"},
     {"OtherScore",
      {.mission = "name = \"x\"\nscore = { kind = \"external\" }\n"},
-     "in/x.toml:5:18: kind = \"external\" is not there yet"},
+     "in/x.toml:5:18: kind = \"external\" is not supported yet"},
     {"UnknownScore",
      {.mission = "name = \"x\"\nscore = { kind = \"robot_on\" }\n"},
      "in/x.toml:5:18: `kind` cannot be \"robot_on\" (did you mean \"robots_on\"?)"},
@@ -111,16 +111,16 @@ const Mistake kMistakes[] = {
      "in/x.toml:5:51: `at` cannot be \"summ\" (did you mean \"sum\"?)"},
     {"NegativeSide",
      {.mission = "name = \"x\"\nscore = { kind = \"coverage\", side = -1 }\n"},
-     "in/x.toml:5:37: `side` must be from 0.01 to 1000, this is -1"},
+     "in/x.toml:5:37: `side` must be from 0.01 to 1000, not -1"},
     {"SideOfNaN",
      {.mission = "name = \"x\"\nscore = { kind = \"coverage\", side = nan }\n"},
-     "in/x.toml:5:37: `side` must be from 0.01 to 1000, this is nan"},
+     "in/x.toml:5:37: `side` must be from 0.01 to 1000, not nan"},
     {"RewardOfNaN",
      {.mission = "name = \"x\"\nscore = { kind = \"color_reward\", rewards = { red = nan } }\n"},
-     "in/x.toml:5:52: `red` must be from -1000000000 to 1000000000, this is nan"},
+     "in/x.toml:5:52: `red` must be from -1000000000 to 1000000000, not nan"},
     {"RewardOfInfinity",
      {.mission = "name = \"x\"\nscore = { kind = \"color_reward\", rewards = { red = -inf } }\n"},
-     "in/x.toml:5:52: `red` must be from -1000000000 to 1000000000, this is -inf"},
+     "in/x.toml:5:52: `red` must be from -1000000000 to 1000000000, not -inf"},
     {"RewardTwice",
      {.mission = "name = \"x\"\nscore = { kind = \"color_reward\", "
                  "rewards = { red = 1, \"#ff0000\" = 2 } }\n"},
@@ -140,7 +140,7 @@ const Mistake kMistakes[] = {
      "in/x.toml:7:11: `flavour` cannot be \"watermellon\" (did you mean \"watermelon\"?)"},
     {"FlavourNotYet",
      {.method = "name = \"m\"\nflavour = \"vanilla\"\n"},
-     "in/x.toml:7:11: vanilla is a way to search, and no flavour"},
+     "in/x.toml:7:11: vanilla is a search, not a flavour"},
     {"UnknownTurnClock",
      {.method = "name = \"m\"\nturn_clock = \"second\"\n"},
      "in/x.toml:7:14: `turn_clock` cannot be \"second\" (did you mean \"seconds\"?)"},
@@ -158,7 +158,7 @@ const Mistake kMistakes[] = {
      "in/x.toml:7:14: `conditions` is empty"},
     {"TooManyStates",
      {.method = "name = \"m\"\nmax_states = 5\n"},
-     "in/x.toml:7:14: `max_states` must be from 1 to 4, this is 5"},
+     "in/x.toml:7:14: `max_states` must be from 1 to 4, not 5"},
     {"RangeOfUnknownModule",
      {.method = "name = \"m\"\nparameters.explration.tau.int = [1, 2]\n"},
      "the method has no module `explration` (did you mean \"exploration\"?)"},
@@ -187,26 +187,27 @@ const Mistake kMistakes[] = {
      "in/x.toml:9:11: `capping` needs a bound_max above 0"},
     {"TimeOfTheSimulator",
      {.race = "max_time = 2000\n"},
-     "in/x.toml:8:12: `max_time` needs a target that says how long its runs took"},
+     "in/x.toml:8:12: `max_time` needs a target that reports how long its runs took"},
     {"TwoBudgets",
      {.race = "max_experiments = 2000\nmax_time = 10\n",
       .rest = "[simulator]\nkind = \"command\"\ncommand = [\"./r\"]\n"},
      "in/x.toml:9:12: give `max_experiments` or `max_time`, not both"},
     {"Confidence",
      {.race = "max_experiments = 2000\nconfidence = 1.5\n"},
-     "in/x.toml:9:14: `confidence` must be from 0 to 1, this is 1.5"},
+     "in/x.toml:9:14: `confidence` must be from 0 to 1, not 1.5"},
     {"FirstTest",
      {.race = "max_experiments = 2000\neach_test = 2\nfirst_test = 5\n"},
      "in/x.toml:10:14: `first_test` must be a multiple of each_test, which is 2, and is 5"},
     {"OtherSimulator",
      {.rest = "[simulator]\nkind = \"argos\"\n"},
-     "in/x.toml:10:8: kind = \"argos\" is not there yet"},
+     "in/x.toml:10:8: kind = \"argos\" is not supported yet"},
     {"NoCommand",
      {.rest = "[simulator]\nkind = \"command\"\n"},
      "in/x.toml:9:1: kind = \"command\" needs `command`"},
     {"TwoCommands",
      {.rest = "[simulator]\nkind = \"command\"\ncommand = [\"python3\", \"r.py\"]\n"},
-     "in/x.toml:11:11: `command` must name one program; an interpreter before it is `launcher`"},
+     "in/x.toml:11:11: `command` must name one program; an interpreter before it goes into "
+     "`launcher`"},
     {"BatchWithoutEvaluator",
      {.rest = "[simulator]\nkind = \"command\"\ncommand = [\"./r\"]\nbatch_mode = \"slurm\"\n"},
      "in/x.toml:12:14: `batch_mode` needs an `evaluator`"},
@@ -279,7 +280,7 @@ INSTANTIATE_TEST_SUITE_P(Mistakes, BadFile, testing::ValuesIn(kMistakes),
 TEST(CampaignFile, NeedsItsFormatFirst) {
   EXPECT_THAT(complaints("[[mission]]\nname = \"aggregation\"\n[[method]]\nname = \"w\"\n"
                          "[race]\nmax_experiments = 2000\n"),
-              ElementsAre(HasSubstr("the file begins with its format: format = 1")));
+              ElementsAre(HasSubstr("the file must begin with its format: format = 1")));
 }
 
 TEST(CampaignFile, OfALaterFormatIsRefused) {
@@ -292,7 +293,7 @@ TEST(CampaignFile, OfALaterFormatIsRefused) {
 TEST(CampaignFile, OfAFormatThatNeverWasIsRefused) {
   std::string text = FileText{}.text();
   text.replace(text.find('1'), 1, "0");
-  EXPECT_THAT(complaints(text), ElementsAre("in/x.toml:1:10: this program reads format 1, this is "
+  EXPECT_THAT(complaints(text), ElementsAre("in/x.toml:1:10: this program reads format 1, not "
                                             "format 0"));
 }
 
@@ -340,8 +341,8 @@ TEST(BadCampaign, AMissionFileIsToldToBeOne) {
   ASSERT_FALSE(campaign);
   ASSERT_EQ(campaign.error().size(), 1U);
   EXPECT_THAT(to_string(campaign.error().front()),
-              HasSubstr("this is a mission, not a campaign: a campaign file names it, "
-                        "[[mission]] with preset = "));
+              HasSubstr("this is a mission, not a campaign: a campaign file names it ([[mission]] "
+                        "with preset = "));
 }
 
 }  // namespace

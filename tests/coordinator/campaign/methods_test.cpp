@@ -126,10 +126,10 @@ TEST(Methods, SaysWhatDoesNotFitTogether) {
   EXPECT_THAT(complaint_about("search = \"cmaes\"\n"), HasSubstr("cma-es"));
   EXPECT_THAT(complaint_about("architecture = \"net\"\n"), HasSubstr("network"));
   EXPECT_THAT(complaint_about("method = \"maple\"\nsearch = \"random\"\n"),
-              HasSubstr("says architecture and search already: tree and irace"));
+              HasSubstr("sets architecture and search already: tree and irace"));
   EXPECT_THAT(
       complaint_about("[method.evolution]\npopulation = 10\n"),
-      HasSubstr("[method.evolution] is of the search evolution, and this method's search is "
+      HasSubstr("[method.evolution] is for the search evolution, and this method's search is "
                 "irace"));
   EXPECT_THAT(complaint_about("method = \"evostick\"\n[method.evolution]\npopulatoin = 10\n"),
               HasSubstr("population"));
@@ -149,11 +149,11 @@ TEST(Methods, SaysWhatDoesNotFitTogether) {
   EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\nwindow = 2\nmoved = 3\n"),
               HasSubstr("at most `window`"));
   EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\nend_temperature = 2\n"),
-              HasSubstr("`end_temperature` (2) is at most `start_temperature` (1)"));
+              HasSubstr("`end_temperature` (2) must be at most `start_temperature` (1)"));
   EXPECT_EQ(complaint_about("method = \"icepop\"\n[method.annealing]\nstart_temperature = 0\n"),
             "read");
   EXPECT_THAT(complaint_about("method = \"evostick\"\n[method.evolution]\nparents = 0.1\n"),
-              HasSubstr("`elites` (0.2) is at most `parents` (0.1)"));
+              HasSubstr("`elites` (0.2) must be at most `parents` (0.1)"));
   EXPECT_THAT(
       complaint_about("method = \"random\"\n", "first_test = 3\n"),
       HasSubstr("`first_test` is an option of races, and no method of this campaign races"));
@@ -193,7 +193,7 @@ TEST(Methods, OfBaselinesAreNotSearchedFor) {
                 HasSubstr("`search` says how control software is searched for"));
     EXPECT_THAT(complaint_about(baseline + "[method.irace]\n"), HasSubstr("irace"));
     EXPECT_THAT(complaint_about(baseline + "[method.evolution]\nruns = 3\n"),
-                HasSubstr("[method.evolution] is of the search evolution"));
+                HasSubstr("[method.evolution] is for the search evolution"));
   }
   EXPECT_THAT(complaint_about(machine + "[method.network]\ninputs = \"rvr\"\n"),
               HasSubstr("`network` says what a race may try"));
@@ -206,9 +206,9 @@ TEST(Methods, SayAFaultOnceAndWhatWasMeant) {
     return complaints_of(parse_campaign(file_of(method).text(), "x.toml"));
   };
   EXPECT_THAT(complaints("method = \"evostick\"\narchitecture = \"machine\"\n"),
-              ElementsAre(HasSubstr("says architecture and search already")));
+              ElementsAre(HasSubstr("sets architecture and search already")));
   EXPECT_THAT(complaints("method = \"maple\"\nsearch = \"evolution\"\n"),
-              ElementsAre(HasSubstr("says architecture and search already")));
+              ElementsAre(HasSubstr("sets architecture and search already")));
   EXPECT_THAT(complaints("search = \"frace\"\n"),
               ElementsAre(HasSubstr("did you mean \"f-race\"?")));
   EXPECT_THAT(complaints("search = \"f-race\"\n[method.f_race]\nconfigurations = 30\n"),
@@ -222,11 +222,11 @@ TEST(Methods, RefuseWhatDecidesNothing) {
               HasSubstr("`turn_clock` is for machines and trees"));
   EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\ncooling = \"published\"\n"
                               "start_temperature = 2\n"),
-              HasSubstr("`start_temperature` is of geometric cooling; the published one begins at "
+              HasSubstr("`start_temperature` is for geometric cooling; the published one begins at "
                         "125 score units"));
   EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\ncooling = \"published\"\n"
                               "end_temperature = 0.5\n"),
-              HasSubstr("`end_temperature` is of geometric cooling"));
+              HasSubstr("`end_temperature` is for geometric cooling"));
   EXPECT_EQ(complaint_about("method = \"icepop\"\n[method.annealing]\ncooling = \"published\"\n"),
             "read");
 }
@@ -295,7 +295,7 @@ TEST(Methods, TakeAsManyConfigurationsAsAnFRaceCanTest) {
 
 TEST(Methods, SayWhyAnFRaceIsTooSmallOrTooLarge) {
   EXPECT_THAT(complaint_about("method = \"vanilla\"\n[method.f-race]\nconfigurations = 1\n"),
-              HasSubstr("`configurations` must be 0 (automatic) or at least 2, this is 1"));
+              HasSubstr("`configurations` must be 0 (automatic) or at least 2, not 1"));
   const std::string large =
       complaint_about("method = \"vanilla\"\n[method.f-race]\nconfigurations = 50000\n");
   EXPECT_THAT(large, HasSubstr("`configurations` is 50000"));

@@ -32,7 +32,7 @@ TEST(WorkersOption, NamesALauncher) {
 TEST(WorkersOption, SaysWhatIsWrong) {
   for (const char* text : {"", "0", "-1", "1001", "many", "local:", "local:x", "Slurm", "slurmx"}) {
     EXPECT_THAT(why_not(parse_workers(text, {})).message,
-                StartsWith("Value " + std::string(text) + " is none of: auto, N"));
+                StartsWith("Value " + std::string(text) + " is not one of: auto, N"));
   }
   for (const char* text : {"slurm:", "slurm:x", "slurm:4x", "slurm:0x4", "slurm:4x4x4"})
     EXPECT_THAT(parse_workers(text, {}).error().message, HasSubstr("is not slurm:JOBSxCPUS"));
@@ -60,13 +60,13 @@ TEST(HostFile, ReportsEveryMistakeWithItsPlace) {
   ASSERT_FALSE(hosts);
   EXPECT_THAT(
       lines_of(hosts.error()),
-      ElementsAre(HasSubstr("in/hosts:1:1: a line begins with the host's name"),
-                  HasSubstr("in/hosts:2:7: `slot=4` is none of slots=N, program=PATH, key=PATH, "
+      ElementsAre(HasSubstr("in/hosts:1:1: a line must begin with the name of a host"),
+                  HasSubstr("in/hosts:2:7: `slot=4` is not one of slots=N, program=PATH, key=PATH, "
                             "coordinator=PATH (did you mean \"slots\"?)"),
                   HasSubstr("in/hosts:3:8: `slots` must be a number from 1 to 1024"),
                   HasSubstr("in/hosts:4:1: `node1` is given twice"),
-                  HasSubstr("in/hosts:5:1: a line begins"),
-                  HasSubstr("in/hosts:6:7: `program` must be a path from the root"),
+                  HasSubstr("in/hosts:5:1: a line must begin"),
+                  HasSubstr("in/hosts:6:7: `program` must be an absolute path on that host"),
                   HasSubstr("in/hosts:7:7: `slots` must be"), HasSubstr("in/hosts:7:17: `more`")));
 }
 

@@ -358,8 +358,7 @@ TEST_F(ShippedBySsh, AHostOfAnUnknownKindIsRefused) {
 TEST_F(ShippedBySsh, WhatVanishesIsNotSentInALoop) {
   SshWorkers workers = start({{"a"}}, "test -n \"$sends\" || rm -rf " + cache.string() + "\n");
   wait_for(workers, [&](const std::string&) {
-    return workers.status().note.starts_with(
-        "a: the worker was sent there, and is not to be found");
+    return workers.status().note.starts_with("a: the worker was sent there, but cannot be found");
   });
   EXPECT_EQ(log(), "a\n");
 }

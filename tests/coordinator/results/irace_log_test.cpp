@@ -145,7 +145,7 @@ TEST(IraceLog, NamesWhatDoesNotFitByTableAndLine) {
   EXPECT_THAT(
       lines_of(log.error()),
       ElementsAre("runs.csv:7: there is no pair 9", "runs.csv:8: there is no configuration 7",
-                  "runs.csv:9: column cost wants a number, not `four`",
+                  "runs.csv:9: column cost must be a number, not `four`",
                   HasSubstr("runs.csv:10: the cost -1e305 is beyond 1e300"),
                   "elites.csv: the log has no such table"));
 }

@@ -130,11 +130,11 @@ TEST(ScoreImport, NamesEveryBadRowByItsLine) {
                   "r.csv:3: the row could be of d1 as well as of d2; name the design",
                   "r.csv:4: d3 is not finished and has no winner; name the candidate",
                   "r.csv:5: the store has no candidate c6", "r.csv:6: c2 is of design d1, not d2",
-                  "r.csv:7: column seed wants an integer from 1 on, not `0`",
-                  "r.csv:8: column score wants a finite number, not `inf`",
-                  "r.csv:9: column time wants a number from 0 on, not `-1`",
+                  "r.csv:7: column seed must be an integer from 1 on, not `0`",
+                  "r.csv:8: column score must be a finite number, not `inf`",
+                  "r.csv:9: column time must be a number from 0 on, not `-1`",
                   "r.csv:10: the row has no score", HasSubstr("r.csv:11: the row names no design"),
-                  "r.csv:12: column design wants d3 or 3, not `x`",
+                  "r.csv:12: column design must be d3 or 3, not `x`",
                   "r.csv:13: the score 1e305 is beyond 1e300, where sums of scores are infinite"));
   ScoreImport without_source = known_store();
   without_source.source.clear();

@@ -206,7 +206,7 @@ TEST_F(Coordinators, ConfirmACommandWhenItIsOnDiskAndNotBefore) {
   say(command(pb::Command::KIND_PAUSE, 1), 5);
   ASSERT_EQ(count(pb::ToWorker::kCommandReply), 2);
   EXPECT_EQ(heard.back().command_reply().sentence(),
-            "nothing to do: every design is over, or paused before");
+            "nothing to do: every design is over, or already paused");
 }
 
 TEST_F(Coordinators, LeaseNothingOfWhatIsPausedUntilItIsResumed) {

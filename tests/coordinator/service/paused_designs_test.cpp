@@ -31,7 +31,7 @@ TEST(PausedDesigns, APauseHasARowForEachDesignThatItChanges) {
   const auto again = value_of(rows_of_pause(command(CommandKind::Resume, 3), unfinished, {{2}}));
   EXPECT_THAT(again, IsEmpty());
   EXPECT_EQ(sentence_of_pause(CommandKind::Resume, again),
-            "nothing to do: every design is over, or resumed before");
+            "nothing to do: every design is over, or already resumed");
   EXPECT_FALSE(rows_of_pause(command(CommandKind::Pause, 4), unfinished, {})) << "it is over";
 }
 

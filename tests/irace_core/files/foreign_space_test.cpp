@@ -171,7 +171,7 @@ TEST(ConfigSpace, SaysWhatItCannotRead) {
   EXPECT_THAT(one("1"), HasSubstr("s.json: hyperparameters[0]: expected an object"));
   EXPECT_THAT(one(R"({"type": "constant"})"), HasSubstr("expected a member \"name\""));
   EXPECT_THAT(one(R"({"name": "a", "type": "normal_float", "mu": 1})"),
-              HasSubstr("hyperparameters[0]: the type \"normal_float\" is not there in irace"));
+              HasSubstr("hyperparameters[0]: the type \"normal_float\" does not exist in irace"));
   const std::string a = R"({"name": "a", "type": "uniform_int", "lower": 1, "upper": 9)";
   EXPECT_THAT(one(a + R"(, "q": 2})"), HasSubstr("steps (\"q\")"));
   EXPECT_THAT(one(a + R"(, "default": 10})"), HasSubstr("is not from 1 to 9"));

@@ -139,7 +139,7 @@ TEST(ParameterFileGolden, ReadsWhatRReadsToTheSameStructure) {
 
 TEST(ParameterFileGolden, RefusesWhatRRefusesForTheSameReason) {
   const std::map<std::string, std::string> reasons = {
-      {"e01_bad_type", "1:10: expected the type and a blank behind it"},
+      {"e01_bad_type", "1:10: expected the type and a blank after it"},
       {"e02_no_quotes", "1:3: expected the switch in double quotes"},
       {"e03_duplicate_name", "2:1: there is a parameter 'a' above already"},
       {"e04_lower_ge_upper", "1:1: parameter 'a', domain (5,5): the lower bound must be below"},
@@ -166,7 +166,7 @@ TEST(ParameterFileGolden, RefusesWhatRRefusesForTheSameReason) {
       {"e24_bad_condition_syntax", "1:20: found the end, expected a value, a name or '('"},
       {"e25_bad_name", "1:1: expected a parameter's name (letters, digits, '_' and '.')"},
       {"e26_dep_undefined", "1:12: there is no parameter 'zz'"},
-      {"e27_space_in_type", "1:6: expected the type and a blank behind it"},
+      {"e27_space_in_type", "1:6: expected the type and a blank after it"},
       {"e28_self_cycle", "1:1: parameter 'a', domain (1,5): depends on itself"},
       {"e29_sections_only", "1:1: the file has no parameter"},
       {"e30_andand_in_condition", "2:25: found '&&': write '&', as irace needs it"},

@@ -47,11 +47,11 @@ TEST(ParameterFile, MendsWhatIsADefectInR) {
   EXPECT_THAT(values_of("(\"a#b\", \"c|d\") # a comment"), ElementsAre("a#b", "c|d"));
   EXPECT_THAT(values_of("(x , y )"), ElementsAre("x", "y"));
   EXPECT_THAT(warnings_of("(x , y )"),
-              ElementsAre("p.txt:2:11: the blanks behind the value 'x' are left out; R would keep "
+              ElementsAre("p.txt:2:11: the blanks after the value 'x' are left out; R would keep "
                           "them"));
   EXPECT_THAT(values_of("(,x,)"), ElementsAre("x"));
   EXPECT_EQ(warnings_of("(,x,)").size(), 2U);
-  EXPECT_THAT(values_of("(\"x\"y, z)").front(), HasSubstr("behind the closing quote"));
+  EXPECT_THAT(values_of("(\"x\"y, z)").front(), HasSubstr("after the closing quote"));
   const auto file =
       value_of(read("a \"--a#1 \" c (x,y) | b == 'p#q' # comment\nb \"\" c (\"p#q\", r)\n"));
   EXPECT_EQ(file.space[0].switch_text, "--a#1 ");

@@ -79,10 +79,10 @@ TEST(ScenarioFile, SaysWhatIsWrongWithACallOfAFunction) {
     return errors.empty() ? std::string("none") : errors.front();
   };
   EXPECT_THAT(error("sub(\"(\", \"\", \"a\")"),
-              HasSubstr("the pattern \"(\" is not one that is read here"));
+              HasSubstr("the pattern \"(\" is not supported here"));
   EXPECT_THAT(error("sprintf(\"%s %s\", \"a\")"), HasSubstr("more places than values"));
   EXPECT_THAT(error("sprintf(\"%n\", 3)"), HasSubstr("sprintf knows"));
-  EXPECT_THAT(error("sprintf(\"%d\", 0.5)"), HasSubstr("wants a whole number, found 0.5"));
+  EXPECT_THAT(error("sprintf(\"%d\", 0.5)"), HasSubstr("must be a whole number, found 0.5"));
   EXPECT_THAT(error("readLines(\"none.txt\")"), HasSubstr("readLines: there is no such file"));
   EXPECT_THAT(error("seq(1, 9, by = -1)"), HasSubstr("seq cannot come from 1 to 9 by -1"));
   EXPECT_THAT(error("seq(1, 1e9)"), HasSubstr("too long a vector"));

@@ -70,7 +70,7 @@ TEST(FlavourFile, WhatIsWrongIsSaidWithItsPlace) {
               ElementsAre(HasSubstr("`repulsion` and `stop` have the same number 2")));
   EXPECT_THAT(complaints(kOnWatermelon + "[behaviours]\nexploration = { number = 0 }\n"
                                          "stop = { number = 1001 }\n"),
-              ElementsAre(HasSubstr("`number` must be from 0 to 1000, this is 1001")))
+              ElementsAre(HasSubstr("`number` must be from 0 to 1000, not 1001")))
       << "and no other error follows from it";
   EXPECT_THAT(complaints(kOnWatermelon + "[exploration]\ntrigger = \"front\"\n"),
               ElementsAre(HasSubstr("it is one of: \"front readings\", \"vector sum\", \"front "
@@ -86,7 +86,7 @@ TEST(FlavourFile, WhatIsWrongIsSaidWithItsPlace) {
                                  "} }\n"),
       ElementsAre(HasSubstr("texts have --n for something else; give beta another token")));
   EXPECT_THAT(complaints(kOnWatermelon + "states = 17\n"),
-              ElementsAre("mine.toml:3:10: `states` must be from 1 to 16, this is 17"));
+              ElementsAre("mine.toml:3:10: `states` must be from 1 to 16, not 17"));
   EXPECT_THAT(complaints("[behaviours]\nstop = { number = 0 }\n"),
               ElementsAre(HasSubstr("a flavour needs a table [conditions] with one at least")));
   const std::string on_nothing =

@@ -139,7 +139,7 @@ TEST(ArenaShapes, ThatMakeNoArenaAreExplained) {
       {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0]]\n",
        "`corners` must be a list of lists of 2 numbers, such as"},
       {"shape = \"polygon\"\n", "needs `corners` or `walls`"},
-      {"shape = \"square\"\nside = -1\n", "`side` must be from 0.1 to 200, this is -1"},
+      {"shape = \"square\"\nside = -1\n", "`side` must be from 0.1 to 200, not -1"},
       {"shape = \"square\"\nside = nan\n", "this is nan"},
       {"shape = \"square\"\n", "needs `side`"},
       {"shape = \"square\"\nside = 1\ndiameter = 2\n", "`diameter` belongs to shape = \"circle\""},

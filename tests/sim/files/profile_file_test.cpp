@@ -151,8 +151,8 @@ TEST(ProfileFile, GetsASentenceWithLineAndColumnForEachMistake) {
       {"[proximty]\n",
        "mine.toml:2:2: the file has no key `proximty` (did you mean \"proximity\"?)"},
       {"[proximity]\nsdd = 1\n", "mine.toml:3:1: [proximity] has no key `sdd`"},
-      {"[proximity]\nsd = -1\n", "mine.toml:3:6: `sd` must be from 0 to 1, this is -1"},
-      {"[proximity]\nsd = nan\n", "mine.toml:3:6: `sd` must be from 0 to 1, this is nan"},
+      {"[proximity]\nsd = -1\n", "mine.toml:3:6: `sd` must be from 0 to 1, not -1"},
+      {"[proximity]\nsd = nan\n", "mine.toml:3:6: `sd` must be from 0 to 1, not nan"},
       {"[proximity]\nrange = 0.05\n", "mine.toml:3:9: `range` must be from 0.06 to 2"},
       {"[proximity]\nphantom_rate = 1.1\n", "mine.toml:3:16: `phantom_rate` must be from 0 to 1"},
       {"[ground_color]\nlabeler = 1\n", "mine.toml:3:11: `labeler` must be true or false"},
@@ -177,7 +177,7 @@ TEST(ProfileFile, GetsASentenceWithLineAndColumnForEachMistake) {
       {"[timing]\ndriver = \"205 ms\"\n",
        "mine.toml:3:10: `driver` must be a multiple of 10 ms, the step of the simulator"},
       {"[neighbours]\nevery = \"11 s\"\n", "mine.toml:3:9: `every` must be from"},
-      {"[treads]\nstep = 11\n", "mine.toml:3:8: `step` must be from 0 to 10, this is 11"},
+      {"[treads]\nstep = 11\n", "mine.toml:3:8: `step` must be from 0 to 10, not 11"},
       {"[proximity]\ntouch = \"noting\"\n", "mine.toml:3:9: `touch` cannot be \"noting\" (did you"},
       {"wire = \"float16\"\n", "mine.toml:2:8: `wire` cannot be \"float16\""},
       {"base = \"rvx\"\n", "mine.toml:2:8: `base` cannot be \"rvx\" (did you mean \"rvr\"?)"},
@@ -191,7 +191,7 @@ TEST(ProfileFile, GetsASentenceWithLineAndColumnForEachMistake) {
               ElementsAre("mine.toml:3:10: the probabilities of `delays` must sum to 1, these sum "
                           "to 0.75"));
   EXPECT_THAT(complaints("[timing]\ndelays = [ { time = \"100 ms\", probability = nan } ]\n"),
-              ElementsAre("mine.toml:3:45: `probability` must be from 0 to 1, this is nan"));
+              ElementsAre("mine.toml:3:45: `probability` must be from 0 to 1, not nan"));
 }
 
 }  // namespace

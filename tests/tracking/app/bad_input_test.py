@@ -96,7 +96,7 @@ class BadInput(unittest.TestCase):
                       ("--csv", notes), ("--report", notes)):
             done = call(TRACK, "score", "--run", log, "--arena", arena, *words)
             self.assertIn(done.returncode, (1, 2), f"{words}: {done.stdout}")
-            self.assertRegex(done.stderr, "would be lost|is there already and is")
+            self.assertRegex(done.stderr, "would be (lost|overwritten)|(is there already|already exists) and is")
         for words in (("--csv", arena), ("--report", video)):
             done = call(TRACK, "score", "--run", self.folder / "gone.toml", "--arena", arena, *words,
                         "--csv" if words[0] == "--report" else "--report", words[1])
@@ -374,7 +374,7 @@ class BadInput(unittest.TestCase):
 
     def test_settings_that_cannot_be(self):
         for number, (before, after, wanted) in enumerate((
-                ("x = 1.0430", "x = nan", r"`x` must be from -100 to 100, this is nan"),
+                ("x = 1.0430", "x = nan", r"`x` must be from -100 to 100, not nan"),
                 ("edge = 0.1\n", "edge = -0.1\n", r"`edge` must be from 0\.005 to 2.* -0\.1"),
                 ("height = 0.2", "height = 2.9", r"`height` must be below.*2\.9"),
                 ("family =", "familie =", "did you mean \"family\""))):

@@ -117,7 +117,7 @@ color = "gren"
           HasSubstr("run.toml:9:1: E_CONFIG: several [[video]]: each needs a `camera`"),
           HasSubstr("E_CONFIG: [[video]] needs a `file`"),
           HasSubstr("E_CONFIG: `ahead` must be a text"),
-          AllOf(HasSubstr("E_CONFIG: `x` must be from -100 to 100, this is nan")),
+          AllOf(HasSubstr("E_CONFIG: `x` must be from -100 to 100, not nan")),
           AllOf(HasSubstr("E_CONFIG: there is no colour \"gren\""), HasSubstr("green"))));
 }
 
