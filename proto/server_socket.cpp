@@ -276,7 +276,7 @@ Expected<std::unique_ptr<ServerSocket>> ServerSocket::bind(const std::string& en
   } catch (const zmq::error_t& error) {
     const bool taken = error.num() == EADDRINUSE;
     return unexpected(taken ? ErrorKind::Conflict : ErrorKind::Unavailable,
-                      taken ? "another program listens on this port; name another one, or end that"
+                      taken ? "another program listens on this port; name another port, or end that program"
                             : std::string("cannot listen on this address: ") + error.what(),
                       endpoint);
   }

@@ -67,7 +67,7 @@ TEST(AllowList, SaysEverythingThatIsWrongAndWhere) {
       "rights = \"all\"\n";
   EXPECT_THAT(
       complaints_about(text),
-      ElementsAre(HasSubstr("clients.toml:3:8: a client's name has letters"),
+      ElementsAre(HasSubstr("clients.toml:3:8: a client's name must consist of"),
                   HasSubstr("clients.toml:4:8: `role` cannot be \"work\"; it is one of"),
                   HasSubstr("clients.toml:5:7: `key` must be a public key"),
                   HasSubstr("clients.toml:6:11: `expires` must be a date such as 2027-01-31"),
