@@ -256,7 +256,7 @@ TEST(Methods, ThatSeeLightWantARobotWhoseSensorsGiveWhatTheyTake) {
   EXPECT_THAT(complaints_of("rvr", "lux", "chocolate"), IsEmpty());
   EXPECT_THAT(complaints_of("rvr", "strength", "watermelon"), IsEmpty());  // which sees no light
   EXPECT_THAT(complaints_of("rvr", "strength", "chocolate"),
-              ElementsAre(HasSubstr("takes lux from light sensors, and the robot `rvr` gives "
+              ElementsAre(HasSubstr("takes lux from light sensors, but the robot `rvr` gives "
                                     "strengths; choose another flavour")));
   EXPECT_THAT(complaints_of("epuck", "strength", "chocolate-epuck"), IsEmpty());
 }

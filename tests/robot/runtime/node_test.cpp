@@ -128,7 +128,7 @@ TEST(RobotNode, RefusesStartsThatAreOldRepeatedForOthersOrAtTheWrongTime) {
   robot.node.hear(order, robot.now());
   EXPECT_EQ(robot.state().phase, Phase::Armed);
   robot.node.hear(order, robot.now());
-  EXPECT_THAT(robot.state().refused, HasSubstr("given before"));
+  EXPECT_THAT(robot.state().refused, HasSubstr("came before"));
   EXPECT_EQ(robot.state().phase, Phase::Armed);
   order = robot.order(Order::Kind::Start);
   order.run = "run09";

@@ -30,7 +30,7 @@ TEST(MachineText, HasAMegabyteAtMost) {
   const std::string longest = machine + std::string((1U << 20U) - machine.size(), ' ');
   EXPECT_TRUE(parse_controller(longest, watermelon()));
   EXPECT_EQ(why_not(parse_controller(longest + " ", watermelon())).message,
-            "control software has at most 1048576 characters, and this text has 1048577");
+            "control software has at most 1048576 characters, but this text has 1048577");
 }
 
 TEST(MachineText, ReadsEveryModule) {
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "a machine of 5 states; machines of 1 to 4 states are read"},
         BadText{"--nstates 0", "token 2, column 11",
                 "a machine of 0 states; machines of 1 to 4 states are read"},
-        BadText{"--nstates 1.0 --s0 1", "token 2, column 11", "wants an integer, not `1.0`"},
+        BadText{"--nstates 1.0 --s0 1", "token 2, column 11", "must be an integer, not `1.0`"},
         BadText{"--nstates 1", "token 3, column 12", "expected `--s0`"},
         BadText{"--nstates 1 --s1 1", "token 3, column 13", "expected `--s0`"},
         BadText{"--nstates 2 --s0 1", "token 5, column 19", "expected `--s1`"},
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadText{"--nstates 1 --s0 4", "token 4, column 18",
                 "no module 4 for `--s0`; it has 0 exploration, 1 stop, 2 attraction, 3 repulsion"},
-        BadText{"--nstates 1 --s0 x", "token 4, column 18", "wants an integer, not `x`"},
+        BadText{"--nstates 1 --s0 x", "token 4, column 18", "must be an integer, not `x`"},
         BadText{"--nstates 1 --s0 0", "token 5, column 19", "expected `--rwm0`"},
         BadText{"--nstates 1 --s0 0 --rwm0 0", "token 6, column 27", "tau must be at least 1"},
         BadText{"--nstates 1 --s0 0 --rwm0 2.5", "token 6, column 27", "wants an integer"},
@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 5 --p0x0 1 --w0x0 2 --s1 1",
                 "token 13, column 54", "`--w0x0` does not belong to fixed_probability"},
         BadText{"--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 3 --p0x0 0.5 --w0x0 2 --s1 1",
-                "token 12, column 52", "wants an integer, not `0.5`"},
+                "token 12, column 52", "must be an integer, not `0.5`"},
         BadText{"--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 3 --p0x0 -1 --w0x0 2 --s1 1",
                 "token 12, column 52", "xi must be at least 0"},
         BadText{"--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 6 --p0x0 1 --l0x0 4 --s1 1",
