@@ -220,7 +220,7 @@ TEST(NodeLoop, DoesNotBeginARunWhoseLogIsThereAlready) {
   ASSERT_TRUE(outside.until_phase(Phase::Ready));
   outside.send(outside.order(Order::Kind::Start));
   ASSERT_TRUE(outside.until([](const NodeState& state) { return !state.refused.empty(); }));
-  EXPECT_THAT(outside.state.refused, HasSubstr("run07.rvr1.log.csv: it is there already"));
+  EXPECT_THAT(outside.state.refused, HasSubstr("run07.rvr1.log.csv: already exists"));
   EXPECT_EQ(outside.state.phase, Phase::Idle);
   EXPECT_EQ(whole_file(folder / "run07.rvr1.log.csv"), "precious");
   EXPECT_TRUE(outside.start(1, "run08"));

@@ -137,7 +137,7 @@ class BadInput(unittest.TestCase):
                         (*spin, "-o", copy.with_name("rvr2.offset.toml")), (*spin, "-o", other)):
             done = call(TRACK, *command)
             self.assertEqual(done.returncode, 2, f"{command}: {done.stdout}")
-            self.assertIn("is there already", done.stderr)
+            self.assertIn("already exists", done.stderr)
         self.assertEqual(before, {file: file.read_bytes() for file in before})
         place = self.folder / "place.toml"
         for _ in range(2):
@@ -420,7 +420,7 @@ class BadInput(unittest.TestCase):
         self.assertIn("Stored as r1", first.stdout)
         again = self.score(LAB.film("good"))
         self.assertEqual(again.returncode, 0, again.stderr)
-        self.assertIn("stored already, as r1", again.stdout)
+        self.assertIn("already stored, as r1", again.stdout)
         self.assertEqual(len(runs_in(self.store)), 1)
         without_d4 = self.score(LAB.film("good"), "--design", "d4")
         self.assertEqual(without_d4.returncode, 4, without_d4.stderr)
