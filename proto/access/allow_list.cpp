@@ -22,8 +22,9 @@ AllowedClient read_client(TableReader& table) {
   if (const auto name = table.text("name")) {
     client.name = *name;
     if (!is_client_name(*name)) {
-      table.complain("name",
-                     "a client's name must consist of at most 64 letters, digits, \".\", \"_\" and \"-\"");
+      table.complain(
+          "name",
+          "a client's name must consist of at most 64 letters, digits, \".\", \"_\" and \"-\"");
     }
   }
   if (const auto role = table.choice("role", kRoleNames)) client.role = *role_of(*role);

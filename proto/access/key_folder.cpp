@@ -113,8 +113,9 @@ Expected<std::vector<std::filesystem::path>> make_key_folder(const KeyFolder& fo
 
 Expected<std::filesystem::path> add_client(const KeyFolder& folder, const NewClient& client) {
   if (!is_client_name(client.name)) {
-    return bad_input("a client's name must consist of at most 64 letters, digits, \".\", \"_\" and \"-\"",
-                     client.name);
+    return bad_input(
+        "a client's name must consist of at most 64 letters, digits, \".\", \"_\" and \"-\"",
+        client.name);
   }
   Expected<KeyPair> server = read_server_key(folder.server_key());
   if (!server) {

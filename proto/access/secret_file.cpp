@@ -47,8 +47,8 @@ std::string objection_to(const struct stat& status, const std::filesystem::path&
   // A file of root is as safe as a file of this user.
   if (status.st_uid != geteuid() && status.st_uid != 0) {
     return "the file belongs to another user (id " + std::to_string(status.st_uid) +
-           "), who could let anyone connect; change its owner: chown " + std::to_string(geteuid()) + " " +
-           file.string();
+           "), who could let anyone connect; change its owner: chown " + std::to_string(geteuid()) +
+           " " + file.string();
   }
   if ((status.st_mode & 022U) != 0) {
     return "other users can change this file; forbid it: chmod go-w " + file.string();

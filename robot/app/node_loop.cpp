@@ -83,8 +83,8 @@ bool NodeLoop::turn_in_lock_step() {
     hear(*message);
   } else {
     if (node_.is_on() && steady_now() - world_heard_ > options_.patience) {
-      const std::string why =
-          fmt::format("no message from the world for {:.1f} s", seconds_of(steady_now() - world_heard_));
+      const std::string why = fmt::format("no message from the world for {:.1f} s",
+                                          seconds_of(steady_now() - world_heard_));
       node_.fail(why);
       options_.note(why);
       finish(Ending::Lost);

@@ -58,8 +58,9 @@ struct RunWords {
 
 Expected<Feed> feed_by(const std::string& name, const char* option) {
   if (const auto feed = named<Feed>(name)) return *feed;
-  return bad_input("there is no sensor `" + name + "`; sensors are proximity, ground, neighbours, light",
-                   option);
+  return bad_input(
+      "there is no sensor `" + name + "`; sensors are proximity, ground, neighbours, light",
+      option);
 }
 
 Expected<std::vector<Rgb>> labels_of(const std::string& words) {
@@ -281,7 +282,8 @@ CommandRun declare_robot_run(Options& options) {
   options.texts("--max-age", words->max_ages,
                 "SENSOR=SECONDS without a message until the treads stop, repeatable (default "
                 "proximity=0.3, all others 0.35)");
-  options.texts("--need SENSOR", words->needs, "A sensor that is needed, although the machine does not read it");
+  options.texts("--need SENSOR", words->needs,
+                "A sensor that is needed, although the machine does not read it");
   options.number("--operator-gone", words->operator_gone_s, {0, 3600},
                  "End a run after N seconds without `start`; 0: never (default 1)");
   options.number("--least-battery PERCENT", words->least_battery_percent, {0, 100},

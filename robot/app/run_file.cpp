@@ -60,13 +60,13 @@ void RunFileWords::declare(Options& options) {
   options.text("--mission MISSION|FILE", run.mission,
                "For that log: the mission, a name or a file");
   options.text("--design DESIGN", run.design, "For that log: the design whose winner ran, d3");
-  options.text("--candidate CANDIDATE", run.candidate, "For that log: the candidate that ran, c812");
+  options.text("--candidate CANDIDATE", run.candidate,
+               "For that log: the candidate that ran, c812");
   options.text("--video FILE", run.video,
                "For that log: the video that is recorded on this computer");
   options.text("--camera CAMERA", run.camera,
                "For that log: the video's camera, as in the arena file");
-  options.text("--robot-logs DIR", logs,
-               "For that log: the folder where you put the robots' logs");
+  options.text("--robot-logs DIR", logs, "For that log: the folder where you put the robots' logs");
   options.integer("--sync-tag", sync_tag, {0, 100000}, "For that log: a tag covered at the start");
   options.flag("--patches", run.has_patches,
                "For that log: measure the colour patches in the video");

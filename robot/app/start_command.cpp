@@ -113,8 +113,9 @@ ExitCode start(const StartWords& words, Output& output) {
   const auto names = robot_names(words.robots);
   if (!names) return fail(output, ExitCode::Usage, names.error());
   if (!is_plain_name(words.run)) {
-    return fail(output, ExitCode::Usage,
-                {ErrorKind::BadInput, "a run's name must consist of letters, digits, - and _", "--run"});
+    return fail(
+        output, ExitCode::Usage,
+        {ErrorKind::BadInput, "a run's name must consist of letters, digits, - and _", "--run"});
   }
   const auto place = words.file.check(words.run);
   if (!place) return fail(output, ExitCode::Usage, place.error());
@@ -170,10 +171,11 @@ ExitCode start(const StartWords& words, Output& output) {
 
 CommandRun declare_robot_start(Options& options) {
   auto words = std::make_shared<StartWords>();
-  options.text("--run NAME", words->run, "Name of the run; robots refuse a name that they had before",
+  options.text("--run NAME", words->run,
+               "Name of the run; robots refuse a name that they had before",
                Options::Need::Required);
-  options.text("--robots ROBOTS", words->robots,
-               "Robots: 1-3 for rvr1, rvr2, rvr3; or their names", Options::Need::Required);
+  options.text("--robots ROBOTS", words->robots, "Robots: 1-3 for rvr1, rvr2, rvr3; or their names",
+               Options::Need::Required);
   options.number("--seconds", words->seconds, {0.5, 86'400},
                  "How long the run lasts (default 120)");
   options.integer("--seed", words->seed, {1, 2147483647},

@@ -80,7 +80,8 @@ Expected<void> check_words(const WorldWords& words) {
         "the clock)");
   }
   if (words.topics && words.real_time) {
-    return bad_input("works only with --lock-step; real time always uses the drivers' topics", "--topics");
+    return bad_input("works only with --lock-step; real time always uses the drivers' topics",
+                     "--topics");
   }
   if (words.compare && words.real_time) {
     return bad_input("works only with --lock-step; other runs differ each time", "--compare");
@@ -88,8 +89,10 @@ Expected<void> check_words(const WorldWords& words) {
   if (words.compare && words.machine.empty()) {
     return bad_input("needs the machine that the nodes run: --machine FILE", "--compare");
   }
-  if (words.at_once && !words.real_time) return bad_input("works only with --real-time", "--at-once");
-  if (!words.faults.empty() && !words.real_time) return bad_input("works only with --real-time", "--fault");
+  if (words.at_once && !words.real_time)
+    return bad_input("works only with --real-time", "--at-once");
+  if (!words.faults.empty() && !words.real_time)
+    return bad_input("works only with --real-time", "--fault");
   return {};
 }
 
@@ -149,9 +152,8 @@ Expected<Plan> plan_of(const WorldWords& words, Output& output) {
   plan.seeds = std::move(*seeds);
   const bool one_run = words.real_time || words.topics || !words.csv.empty();
   if (one_run && plan.seeds.size() > 1) {
-    return bad_input(words.csv.empty()
-                         ? "nodes get their seed when they start: give one seed"
-                         : "a table has one run: give one seed",
+    return bad_input(words.csv.empty() ? "nodes get their seed when they start: give one seed"
+                                       : "a table has one run: give one seed",
                      "--seeds");
   }
   for (const std::int64_t seed : plan.seeds) {
@@ -297,14 +299,13 @@ class World {
     }
     if (plan_.end.sensors.senses) end_runs(end_);
     if (all_same) return ExitCode::Done;
-    return fail(
-        output_, ExitCode::Failed,
-        words_.topics
-            ? "the nodes' runs differ from those in this process; messages on the drivers' "
-              "topics are float32: compare with a profile that has wire = \"float32\", and "
-              "--wheels floats on both sides"
-            : "the nodes' runs differ from those in this process; do the nodes have this "
-              "machine, flavour and seed, and does each have its own random stream?");
+    return fail(output_, ExitCode::Failed,
+                words_.topics
+                    ? "the nodes' runs differ from those in this process; messages on the drivers' "
+                      "topics are float32: compare with a profile that has wire = \"float32\", and "
+                      "--wheels floats on both sides"
+                    : "the nodes' runs differ from those in this process; do the nodes have this "
+                      "machine, flavour and seed, and does each have its own random stream?");
   }
 
   struct Bits {

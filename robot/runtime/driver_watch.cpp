@@ -190,8 +190,8 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_not_done(TimePoint n
   if (sum <= limits_.give_up) return std::nullopt;
   return Trouble{
       changed_, true, sum > 2 * limits_.give_up,
-      fmt::format("{} ignored the command {}, which was given {} times, for {:.1f} s in all", driver_,
-                  speeds(last->left_mps, last->right_mps), times, seconds_of(sum))};
+      fmt::format("{} ignored the command {}, which was given {} times, for {:.1f} s in all",
+                  driver_, speeds(last->left_mps, last->right_mps), times, seconds_of(sum))};
 }
 
 void DriverWatch::extend(std::optional<Spell>& spell, const std::string& name, TimePoint at) {
@@ -277,9 +277,9 @@ std::string DriverWatch::why_not_obeyed(TimePoint now) const {
   }
   SWARMSMITH_ASSERT(last_, "a driver that is not quiet has said something");
   const Commanded wanted = commands_.empty() ? Commanded{} : commands_.back();
-  const std::string told = driver_ + " reports " +
-                           speeds(last_->left_mps, last_->right_mps) + ", and " +
-                           speeds(wanted.left_mps, wanted.right_mps) + " are commanded: ";
+  const std::string told = driver_ + " reports " + speeds(last_->left_mps, last_->right_mps) +
+                           ", and " + speeds(wanted.left_mps, wanted.right_mps) +
+                           " are commanded: ";
   const bool stands = last_->left_mps == 0 && last_->right_mps == 0;
   const auto until = commanded_until(*last_);
   if (stands && (!until || now - *until > limits_.give_up)) return told + "it stopped them";
@@ -399,14 +399,14 @@ std::vector<std::string> DriverWatch::doubts() const {
     doubts.emplace_back(
         "no driver reports what the treads do (`driven`): if it stops obeying, nothing shows it");
     for (const std::string& name : went_)
-      doubts.push_back(name + " listened to the speeds of the treads, but disconnected during the run");
+      doubts.push_back(name +
+                       " listened to the speeds of the treads, but disconnected during the run");
   }
   constexpr double kFollows = 0.6;
   const Follows& soon = follows_.front();
   const auto late = soon.share.begin() + prompt_delays();
   if (soon.changes == soon.most && *std::max_element(soon.share.begin(), late) < kFollows)
-    doubts.push_back(driver_ +
-                     " reports changes of speed that do not follow the commands");
+    doubts.push_back(driver_ + " reports changes of speed that do not follow the commands");
   for (const std::string& name : came_later_)
     doubts.push_back(name + " connected during the run and says that it drives");
   return doubts;

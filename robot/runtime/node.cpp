@@ -293,7 +293,8 @@ void RobotNode::check_treads(const Command& command) const {
 
 std::string RobotNode::silence_of_operator(const Now& now) const {
   const double silent_s = seconds_of(now.clock - operator_heard_);
-  if (operator_behind_s_ == 0) return fmt::format("no message from the operator for {:.2f} s", silent_s);
+  if (operator_behind_s_ == 0)
+    return fmt::format("no message from the operator for {:.2f} s", silent_s);
   return fmt::format(
       "the operator's orders have had times {:.2f} s too early for {:.2f} s: its clock was set "
       "back, or the network delays them",
@@ -456,11 +457,11 @@ Expected<Decision> RobotNode::answer(const SensesMessage& senses, const Now& now
     if (phase_ == Phase::Running) end(Phase::Ended);
     begin(fmt::format("{}-seed{}", settings_.lock_step_run, senses.seed), senses.seed, 0, now);
   } else if (phase_ != Phase::Running || senses.cycle != cycle_ + 1 || senses.seed != seed_) {
-    std::string wrong =
-        phase_ == Phase::Running
-            ? fmt::format("cycle {} of seed {} came after cycle {} of seed {}", senses.cycle,
-                          senses.seed, cycle_, seed_)
-            : fmt::format("cycle {} of seed {} came, but no run is in progress", senses.cycle, senses.seed);
+    std::string wrong = phase_ == Phase::Running
+                            ? fmt::format("cycle {} of seed {} came after cycle {} of seed {}",
+                                          senses.cycle, senses.seed, cycle_, seed_)
+                            : fmt::format("cycle {} of seed {} came, but no run is in progress",
+                                          senses.cycle, senses.seed);
     fail(wrong);
     return bad_input(std::move(wrong));
   }

@@ -91,7 +91,8 @@ std::vector<std::string> RollCall::complaints(TimePoint now) const {
                            "they reach its node?");
     if (state.robot != robot.name)
       complaints.push_back(robot.name + ": its node calls itself " + state.robot);
-    if (is_on(state.phase)) complaints.push_back(robot.name + ": the run " + state.run + " is in progress");
+    if (is_on(state.phase))
+      complaints.push_back(robot.name + ": the run " + state.run + " is in progress");
     for (const std::string& reason : state.not_ready)
       complaints.push_back(robot.name + ": " + reason);
     if (std::fabs(robot.offset_s) > kMostOffset_s) {

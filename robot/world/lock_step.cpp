@@ -101,12 +101,13 @@ class LockStep final : public Decider {
     if (!sensors_.senses || robots_[robot].asked == 0) return;  // from an earlier run
     if (answer.seed != seed_ || answer.cycle != robots_[robot].asked ||
         !robots_[robot].answers.empty()) {
-      throw RunEnded({ErrorKind::BadInput,
-                      "was asked about cycle " + std::to_string(robots_[robot].asked) +
-                          " of seed " + std::to_string(seed_) + ", but answers cycle " +
-                          std::to_string(answer.cycle) + " of seed " + std::to_string(answer.seed) +
-                          "; are there two nodes of this name, or is it the node of an earlier run?",
-                      end_->name(robot)});
+      throw RunEnded(
+          {ErrorKind::BadInput,
+           "was asked about cycle " + std::to_string(robots_[robot].asked) + " of seed " +
+               std::to_string(seed_) + ", but answers cycle " + std::to_string(answer.cycle) +
+               " of seed " + std::to_string(answer.seed) +
+               "; are there two nodes of this name, or is it the node of an earlier run?",
+           end_->name(robot)});
     }
     robots_[robot].answers.push_back(
         {.command = {.left_mps = answer.left_mps, .right_mps = answer.right_mps, .leds = {}},
@@ -117,17 +118,18 @@ class LockStep final : public Decider {
     // Before the first question a node may send commands to stand still.
     if (sensors_.senses || robots_[robot].asked == 0) return;
     if (!wheels.state) {
-      throw RunEnded({ErrorKind::BadInput,
-                      "sends commands without the controller's state; start its node with --lock-step "
-                      "topics",
-                      end_->name(robot)});
+      throw RunEnded(
+          {ErrorKind::BadInput,
+           "sends commands without the controller's state; start its node with --lock-step "
+           "topics",
+           end_->name(robot)});
     }
     if (!robots_[robot].answers.empty()) {
-      throw RunEnded({ErrorKind::BadInput,
-                      "sends a command without being asked, in cycle " +
-                          std::to_string(robots_[robot].asked) +
-                          "; are there two nodes of this name, or is it the node of an earlier run?",
-                      end_->name(robot)});
+      throw RunEnded(
+          {ErrorKind::BadInput,
+           "sends a command without being asked, in cycle " + std::to_string(robots_[robot].asked) +
+               "; are there two nodes of this name, or is it the node of an earlier run?",
+           end_->name(robot)});
     }
     robots_[robot].answers.push_back(
         {.command = {.left_mps = wheels.left_mps, .right_mps = wheels.right_mps, .leds = {}},

@@ -259,9 +259,10 @@ int run_command_line(int argc, char** argv) {
       ->type_name("FILE");
   app.add_flag("--insecure-plaintext", arguments.insecure_plaintext,
                "Connect to a coordinator on another host without encryption");
-  app.add_option("--slots", arguments.slots,
-                 "Parallel evaluations (default: SLURM_CPUS_PER_TASK, else the CPUs that this process "
-                 "may use)")
+  app.add_option(
+         "--slots", arguments.slots,
+         "Parallel evaluations (default: SLURM_CPUS_PER_TASK, else the CPUs that this process "
+         "may use)")
       ->type_name("N")
       ->check(CLI::Range(1, static_cast<int>(kMaxSlots)));
   app.add_flag("--die-with-parent", arguments.die_with_parent,

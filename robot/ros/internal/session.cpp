@@ -148,7 +148,8 @@ Expected<std::unique_ptr<Session>> Session::join(const std::string& name_space,
   const auto remappings = remappings_of(name_space, options);
   if (!remappings) return tl::unexpected(remappings.error());
   if (!first_session()) {
-    return unexpected(ErrorKind::Conflict, "this process already has a ROS node, and can have only one");
+    return unexpected(ErrorKind::Conflict,
+                      "this process already has a ROS node, and can have only one");
   }
   std::uint32_t how = ros::init_options::NoSigintHandler | ros::init_options::NoRosout;
   if (unique_name) how |= ros::init_options::AnonymousName;

@@ -140,7 +140,8 @@ TEST(DriverWatch, ADriverMayRoundToACentimetreASecond) {
 TEST(DriverWatch, ASilentDriverEndsTheRun) {
   DrivenRobot robot;
   robot.run_with([](DrivenRobot&) {});
-  expect_invalid(robot, "driver: driver does not report what the treads do (for 1.10 s, since 5.0 s)");
+  expect_invalid(robot,
+                 "driver: driver does not report what the treads do (for 1.10 s, since 5.0 s)");
 }
 
 TEST(DriverWatch, ADeadDriverEndsTheRun) {
@@ -369,7 +370,8 @@ TEST(DriverWatch, WithoutADriverThatSaysWhatItDoesNoRunIsValid) {
   robot.run_with(nothing, nothing);
   EXPECT_EQ(robot.state().phase, Phase::Ended);
   EXPECT_EQ(robot.state().verdict, RunVerdict::Degraded);
-  EXPECT_THAT(robot.state().reasons, ElementsAre(HasSubstr("no driver reports what the treads do")));
+  EXPECT_THAT(robot.state().reasons,
+              ElementsAre(HasSubstr("no driver reports what the treads do")));
 
   DrivenRobot dead;
   dead.run_with([](DrivenRobot& of) { of.listeners = [] { return std::vector<Listener>(); }; },
