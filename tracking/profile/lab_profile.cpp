@@ -196,8 +196,7 @@ class Writer {
     std::string text = comment("latency", all, told, 1000, "ms");
     text += fmt::format(
         "# From command to treads, by {} changes of the turning, which scatter by {:.1f} ms "
-        "within\n"
-        "# robots. The latency of the simulator's own treads is subtracted.\n",
+        "within\n# robots. The latency of the simulator's own treads is subtracted.\n",
         delays_s.size(), 1000 * scatter_s);
     if (drawn.empty() || delays_s.size() < kLeastOfLaw) return text + delays_of_mean(all, 0);
     text += "# Late commands also delay the next ones; this is subtracted.\ndelays = [\n";
@@ -310,8 +309,7 @@ class Writer {
   std::string foot() const {
     return fmt::format(
         "\n# Logs and film do not show the noise of proximity sensors, ground colour and lidar, "
-        "nor the\n"
-        "# treads' steps: these are as in `{}`.\n",
+        "nor the\n# treads' steps: these are as in `{}`.\n",
         source_.base);
   }
 

@@ -65,8 +65,7 @@ std::string kind_of_markup(std::string_view text) {
   if (contains(text, "<svg")) return "a picture (SVG)";
   if (contains(text, "<argos-configuration")) {
     return "an experiment of ARGoS; put its machine, the value of `fsm-config` or `bt-config`, "
-           "into a "
-           "file";
+           "into a file";
   }
   return contains(text, "<html") ? "a web page" : "XML";
 }

@@ -165,8 +165,7 @@ TEST(RobotFile, KeysThatDoNothingForTheRobotAreRefused) {
   for (const auto& [text, sentence] : std::initializer_list<std::pair<const char*, const char*>>{
            {"[proximity]\nreach = 1\n",
             "mine.toml:3:9: `reach` is only for robots whose proximity sensors give strengths and "
-            "does "
-            "nothing here; leave it out"},
+            "does nothing here; leave it out"},
            {"[proximity]\nlaw = [1, 0, 0]\n", "`law` is only for robots whose proximity sensors"},
            {"[ground]\nticks = 2\n", "`ticks` is only for robots whose ground sensors vote"},
            {"[ground]\nmajority = 2\n", "`majority` is only for robots"},

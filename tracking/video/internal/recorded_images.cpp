@@ -127,8 +127,7 @@ class RecordedImages final : public FrameSource {
     if (messages_->is_cut()) {
       info_.oddities.emplace_back(
           "it was cut off: the recording was not ended properly, or the file is incomplete, and "
-          "what "
-          "came last is missing");
+          "what came last is missing");
     }
   }
 
