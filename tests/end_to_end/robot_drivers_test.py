@@ -197,7 +197,7 @@ class Drivers:
         """Its treads stand."""
         treads, start = self.begin()
         self.spoil(treads, "deaf")
-        self.assert_invalid(start, None, "holds them")
+        self.assert_invalid(start, None, "stopped them")
 
     def test_one_that_stutters(self):
         treads, start = self.begin()

@@ -272,7 +272,7 @@ class Arenas(Laboratory):
 
     def test_without_a_lens_or_a_place(self):
         (self.copy / "ceiling.place.toml").unlink()
-        self.refused(2, self.AGAIN, "E_CONFIG", "--again needs an earlier place")
+        self.refused(2, self.AGAIN, "E_CONFIG", "--again needs an earlier calibration")
         (self.copy / "ceiling.camera.toml").unlink()
         self.refused(2, self.calibrate(), "E_CONFIG", "not calibrated yet")
         self.refused(2, ["calibrate", "arena", "--arena", "arena.toml"], "--again")

@@ -195,7 +195,7 @@ class Release(unittest.TestCase):
     def test_says_how_to_finish_when_git_makes_no_tag(self):
         (self.folder / ".gitconfig").write_text("[user]\nname = Anna\nemail = anna@example.org\n"
                                                 "[tag]\ngpgSign = true\n[gpg]\nprogram = false\n")
-        self.assert_finished_by_what_it_says("git made no tag")
+        self.assert_finished_by_what_it_says("git could not make the tag")
 
     def test_keeps_other_worktrees(self):
         other = self.folder / "other"

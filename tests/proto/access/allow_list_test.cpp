@@ -79,9 +79,9 @@ TEST(AllowList, SaysEverythingThatIsWrongAndWhere) {
 
 TEST(AllowList, TakesNamesAndKeysOnce) {
   AllowedClient twin = node();
-  EXPECT_THAT(
-      complaints_about("format = 1\n" + text_of(node()) + text_of(twin)),
-      ElementsAre(HasSubstr("another client \"node\""), HasSubstr("the key of \"node\", too")));
+  EXPECT_THAT(complaints_about("format = 1\n" + text_of(node()) + text_of(twin)),
+              ElementsAre(HasSubstr("two clients have the name \"node\""),
+                          HasSubstr("\"node\" has the same key")));
 }
 
 TEST(AllowList, KeysAreGoodThroughTheirLastDay) {

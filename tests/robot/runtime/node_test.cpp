@@ -86,7 +86,7 @@ TEST(RobotNode, TakesAnotherStartAfterARunAndEachNameOnce) {
   robot.cycles(12);
   ASSERT_EQ(robot.state().phase, Phase::Ended);
   robot.node.hear(robot.order(Order::Kind::Start), robot.now());
-  EXPECT_THAT(robot.state().refused, HasSubstr("was here before"));
+  EXPECT_THAT(robot.state().refused, HasSubstr("has already had a run"));
   EXPECT_EQ(robot.state().phase, Phase::Ended);
   robot.run = "run08";
   Order order = robot.order(Order::Kind::Start);

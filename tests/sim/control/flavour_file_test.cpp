@@ -181,7 +181,7 @@ TEST(FlavourFile, WhatIsWrongWithAnExternalModuleIsSaid) {
   EXPECT_THAT(with("wave = { number = 3, kind = \"foreign\" }"),
               ElementsAre(HasSubstr("`kind` cannot be \"foreign\"")));
   EXPECT_THAT(with("gray_floor = { number = 3, kind = \"external\" }"),
-              ElementsAre(HasSubstr("`gray_floor` is a kind that this program has")));
+              ElementsAre(HasSubstr("`gray_floor` is a kind of this program")));
   const auto parameter = [&](const std::string& keys) {
     return with("wave = { number = 3, kind = \"external\", parameters = [ { " + keys + " } ] }");
   };

@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"--nstates 1 --s0 x", "token 4, column 18", "must be an integer, not `x`"},
         BadText{"--nstates 1 --s0 0", "token 5, column 19", "expected `--rwm0`"},
         BadText{"--nstates 1 --s0 0 --rwm0 0", "token 6, column 27", "tau must be at least 1"},
-        BadText{"--nstates 1 --s0 0 --rwm0 2.5", "token 6, column 27", "wants an integer"},
+        BadText{"--nstates 1 --s0 0 --rwm0 2.5", "token 6, column 27", "must be an integer"},
         BadText{"--nstates 1 --s0 0 --rwm0 5 --rwm0 6", "token 7, column 29", "appears twice"},
         BadText{"--nstates 1 --s0 0 --rwm0 5 --att0 2", "token 7, column 29",
                 "`--att0` does not belong to exploration"},
@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "does not belong to the block of state 0"},
         BadText{"--nstates 1 --s0 2 --att0 0", "token 6, column 27", "alpha must be more than 0"},
         BadText{"--nstates 1 --s0 2 --att0 nan", "token 6, column 27", "alpha must be"},
-        BadText{"--nstates 1 --s0 2 --att0 1,5", "token 6, column 27", "wants a number"},
+        BadText{"--nstates 1 --s0 2 --att0 1,5", "token 6, column 27", "must be a number"},
         BadText{"--nstates 1 --s0 1 --foo0 1", "token 5, column 20", "does not belong to stop"},
         BadText{"--nstates 1 --s0 1 --n0 1 --n0x0 0 --c0x0 5 --p0x0 1", "token 5, column 20",
                 "the only state of a machine has no transitions"}));
@@ -164,7 +164,8 @@ TEST(ControllerText, NamesTheOptionsBeforeAMachineThatItDoesNotKnow) {
   const Error read = why_not(
       parse_controller("--robots 22 --rabsi 2 --rabar 0.7 --nstates 1 --s0 1", watermelon()));
   EXPECT_EQ(read.where, "token 1, column 1");
-  EXPECT_THAT(read.message, HasSubstr("not known here: `--robots`, `--rabsi`, `--rabar`;"));
+  EXPECT_THAT(read.message,
+              HasSubstr("unknown options before the machine: `--robots`, `--rabsi`, `--rabar`;"));
   EXPECT_THAT(parse_controller("--nstates 1 --robots 22 --s0 1", watermelon()).error().message,
               HasSubstr("expected `--s0`, found `--robots`"));
   EXPECT_THAT(parse_controller("--nstates 1 --s0 1 --robots 22", watermelon()).error().message,

@@ -197,7 +197,7 @@ TEST(Solids, WithoutRoomOrSenseAreExplained) {
       {"objects = [ { shape = \"circle\", x = 0, y = 0, diameter = 0.5, friction = 1 } ]\n",
        "needs `mass`"},
       {"obstacles = [ { shape = \"circle\", x = 0, y = 0, diameter = 1, angle = 1, theta = 1 } ]\n",
-       "say the same"},
+       "mean the same"},
   };
   for (const BadArena& arena : bad) {
     EXPECT_THAT(complaints(arena.keys), ElementsAre(HasSubstr(arena.sentence))) << arena.keys;

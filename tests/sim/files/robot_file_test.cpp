@@ -151,8 +151,8 @@ TEST(RobotFile, APolygonHasItsCentreOfMassWhereTheRobotHasItsCentre) {
   EXPECT_THAT(
       complaints(body + "[[0, 0], [0.2, 0], [0, 0.1]]\n"),
       ElementsAre("mine.toml:4:11: this polygon cannot be a robot's body: its centre of mass is "
-                  "[0.066667, 0.033333], but a robot's must be at [0, 0]; measure its corners, and "
-                  "all else of it, from there"));
+                  "[0.066667, 0.033333], but a robot's must be at [0, 0]; give its corners, and "
+                  "all other places on it, relative to that point"));
   const std::string centred =
       "[[-0.066667, -0.033333], [0.133333, -0.033333], [-0.066667, 0.066667]]\n";
   EXPECT_THAT(complaints(body + centred), IsEmpty()) << "what the sentence says is near enough";

@@ -34,9 +34,9 @@ TEST(StartsCsv, AcceptsLineEndsOfBothKinds) {
 }
 
 TEST(StartsCsv, ErrorsNameTheLine) {
-  EXPECT_EQ(starts_error(""), "1: there is no column `seed`; wanted are: seed, robot, x, y, theta");
+  EXPECT_EQ(starts_error(""), "1: there is no column `seed`; needed are: seed, robot, x, y, theta");
   EXPECT_EQ(starts_error("seed,x,y\n"),
-            "1: there is no column `robot`; wanted are: seed, robot, x, y, theta");
+            "1: there is no column `robot`; needed are: seed, robot, x, y, theta");
   const std::string header = "seed,robot,x,y,theta\n";
   EXPECT_EQ(starts_error(header + "1,0,0,0\n"), "2: expected 5 cells as in the header, found 4");
   EXPECT_EQ(starts_error(header + "1,0,0,0,0\n1,2,0,0,0\n"),
@@ -72,7 +72,7 @@ TEST(PatchesCsv, ReadsPatchesBySeed) {
 
 TEST(PatchesCsv, ErrorsNameTheLine) {
   EXPECT_EQ(patches_error("seed,x,y,colour\n"),
-            "1: there is no column `color`; wanted are: seed, x, y, color");
+            "1: there is no column `color`; needed are: seed, x, y, color");
   EXPECT_EQ(patches_error("seed,x,y,color,seed\n"), "1: the column `seed` appears twice");
   EXPECT_EQ(patches_error("seed,x,y,color\n0,0,0,red\n"),
             "2: column seed must be a seed from 1 to 2147483647, not `0`");

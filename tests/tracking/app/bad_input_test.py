@@ -399,8 +399,8 @@ class BadInput(unittest.TestCase):
             return f'[[point]]\nrobot = "{robot}"\ntime = "{time} s"\nu = 400\nv = 300\nwho = "A"\n'
         three = 'robots = ["rvr1", "rvr2", "rvr3"]\n'
         for robots, sections, wanted in (
-                (three, point(-0.5), r'\[\[point\]\] of "rvr1" is at -0\.50 s, and the run goes from 0 s to'),
-                (three, point(500), r'is at 500\.00 s, and the run goes'),
+                (three, point(-0.5), r'\[\[point\]\] of "rvr1" is at -0\.50 s, but the run goes from 0 s to'),
+                (three, point(500), r'is at 500\.00 s, but the run goes'),
                 ('robots = ["rvr1", "rvr2"]\n', point(1, "rvr3"), r'`robots` leaves out "rvr3", and has: rvr1, rvr2'),
                 ('robots = ["rvr1", "rvr2"]\n', '[[robot]]\nname = "rvr3"\nverdict = "VALID"\n',
                  r'`robots` leaves out "rvr3", .* take out its \[\[robot\]\]'),
