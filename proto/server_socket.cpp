@@ -275,10 +275,11 @@ Expected<std::unique_ptr<ServerSocket>> ServerSocket::bind(const std::string& en
     impl->socket.bind(tcp_endpoint(*address));
   } catch (const zmq::error_t& error) {
     const bool taken = error.num() == EADDRINUSE;
-    return unexpected(taken ? ErrorKind::Conflict : ErrorKind::Unavailable,
-                      taken ? "another program listens on this port; name another one, or end that"
-                            : std::string("cannot listen on this address: ") + error.what(),
-                      endpoint);
+    return unexpected(
+        taken ? ErrorKind::Conflict : ErrorKind::Unavailable,
+        taken ? "another program listens on this port; name another port, or end that program"
+              : std::string("cannot listen on this address: ") + error.what(),
+        endpoint);
   }
   impl->endpoint = impl->socket.get(zmq::sockopt::last_endpoint);
   return std::unique_ptr<ServerSocket>(new ServerSocket(std::move(impl)));

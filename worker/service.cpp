@@ -93,7 +93,7 @@ class Loop {
   void tell_trouble(const std::string& trouble) {
     if (trouble == trouble_) return;
     trouble_ = trouble;
-    log_event(LogLevel::Warning, "worker", "cannot connect; trying on", {{"reason", trouble}});
+    log_event(LogLevel::Warning, "worker", "cannot connect; trying again", {{"reason", trouble}});
   }
 
   void tell_why() {

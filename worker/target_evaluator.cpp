@@ -42,8 +42,8 @@ Expected<std::string> allowed_file(const std::string& program,
   if (std::ranges::find(allowed, *file) != allowed.end()) return std::move(*file);
   return unexpected(ErrorKind::Conflict,
                     "the campaign needs the program " + *file +
-                        ", which this worker may not run: start the worker with "
-                        "--allow " +
+                        ", which this worker is not allowed to run: start the worker "
+                        "with --allow " +
                         *file);
 }
 
@@ -82,7 +82,7 @@ class Programs {
     std::error_code failed;
     if (std::filesystem::is_directory(target_.folder, failed)) return {};
     return unexpected(ErrorKind::NotFound,
-                      "this host lacks the folder in which the campaign's programs run",
+                      "this host does not have the folder in which the campaign's programs run",
                       target_.folder);
   }
 
@@ -152,7 +152,7 @@ class Programs {
 
 Expected<std::string> allowed_program(const std::string& path) {
   if (const auto resolved = canonical(path)) return *resolved;
-  return unexpected(ErrorKind::NotFound, "there is no such program to allow", path);
+  return unexpected(ErrorKind::NotFound, "there is no such program", path);
 }
 
 Expected<Evaluator> make_target_evaluator(std::shared_ptr<const WorkerScenario> scenario,

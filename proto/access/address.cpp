@@ -38,8 +38,9 @@ Expected<std::string> endpoint_of(std::string_view text, bool with_port) {
   const auto address = parse_address(text);
   if (!address) return bad_input(address.error().message, typed);
   if (with_port && address->port == 0)
-    return bad_input("name the port, too, such as " + to_string(Address{address->host, 5555}),
-                     typed);
+    return bad_input(
+        "the port is missing; write one, such as " + to_string(Address{address->host, 5555}),
+        typed);
   return tcp_endpoint(*address);
 }
 

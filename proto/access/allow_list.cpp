@@ -16,14 +16,15 @@ AllowedClient read_client(TableReader& table) {
   for (const char* needed : {"name", "role", "key"}) {
     if (!table.has(needed)) {
       table.complain(needed, "[[client]] needs a `" + std::string(needed) +
-                                 "`; `swarmsmith keygen --client NAME` writes whole ones");
+                                 "`; `swarmsmith keygen --client NAME` writes complete entries");
     }
   }
   if (const auto name = table.text("name")) {
     client.name = *name;
     if (!is_client_name(*name)) {
-      table.complain("name",
-                     "a client's name has letters, digits, \".\", \"_\" and \"-\", at most 64");
+      table.complain(
+          "name",
+          "a client's name must consist of at most 64 letters, digits, \".\", \"_\" and \"-\"");
     }
   }
   if (const auto role = table.choice("role", kRoleNames)) client.role = *role_of(*role);
@@ -31,8 +32,8 @@ AllowedClient read_client(TableReader& table) {
     client.public_key = *key;
     if (!is_key(*key)) {
       table.complain("key",
-                     "`key` must be a public key of 40 characters, as the line `public` of "
-                     "the client's key file has it");
+                     "`key` must be a public key of 40 characters: the value of `public` in "
+                     "the client's key file");
     }
   }
   client.expires = table.date("expires");
@@ -54,11 +55,11 @@ AllowListOrErrors parse_allow_list(std::string_view text, const std::string& fil
   for (TableReader& table : root.tables("client")) {
     AllowedClient client = read_client(table);
     if (!names.insert(client.name).second && !client.name.empty()) {
-      table.complain("name", "there is another client \"" + client.name + "\"");
+      table.complain("name", "two clients have the name \"" + client.name + "\"");
     }
     const auto [other, fresh] = keys.emplace(client.public_key, client.name);
     if (!fresh && !client.public_key.empty()) {
-      table.complain("key", "this is the key of \"" + other->second + "\", too");
+      table.complain("key", "\"" + other->second + "\" has the same key");
     }
     list.push_back(std::move(client));
   }

@@ -27,8 +27,8 @@ Expected<FoundCoordinator> with_key(const CoordinatorSearch& search, const std::
     return Unexpected(std::move(error));
   }
   if (!server_key.empty() && server_key != key->server_key) {
-    return bad_input("this key belongs to another coordinator than " + search.file.string() +
-                         " names; take a key from that coordinator's folder",
+    return bad_input("this key is for another coordinator than the one in " + search.file.string() +
+                         "; use a key from that coordinator's folder",
                      file.string());
   }
   return FoundCoordinator{.endpoint = endpoint, .keys = key->keys()};
@@ -37,7 +37,7 @@ Expected<FoundCoordinator> with_key(const CoordinatorSearch& search, const std::
 Expected<FoundCoordinator> in_plaintext(const CoordinatorSearch& search,
                                         const std::string& endpoint) {
   if (!search.key.empty()) {
-    return bad_input("the coordinator does not encrypt, and a key was given; leave out --key",
+    return bad_input("the coordinator does not encrypt, but a key was given; leave out --key",
                      search.file.string());
   }
   return FoundCoordinator{.endpoint = endpoint, .keys = std::nullopt};

@@ -18,12 +18,12 @@ namespace swarmsmith {
 namespace {
 
 constexpr const char* kListHead =
-    R"(# Who may connect to the coordinator that has server.key: one [[client]] a key. A running coordinator
-# reads this file again when it changes (and on SIGHUP): take a client out and it is cut off at once.
+    R"(# Who may connect to the coordinator that has server.key: one [[client]] per key. A running
+# coordinator reads this file again when it changes (and on SIGHUP), and disconnects a client that you removed.
 #
-#   name      what logs and the store call it
-#   role      "worker": evaluates, and nothing else; "operator": pauses, resumes, cancels, gives more
-#             budget, reads; "reader": asks for the status
+#   name      its name in logs and in the store
+#   role      "worker": only evaluates; "operator": pauses, resumes, cancels, gives more budget, reads;
+#             "reader": only reads the status
 #   key       its public key: the line `public` of its key file
 #   expires   the last day of the key, in UTC: 2027-01-31 without quotes; may be left out
 #
@@ -61,7 +61,7 @@ Expected<void> make_folder(const std::filesystem::path& folder) {
     if (stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) {
       if ((status.st_mode & 022U) == 0) return {};
       return bad_input(
-          "others may write into this folder; take it back: chmod 700 " + folder.string(),
+          "other users can write into this folder; forbid it: chmod 700 " + folder.string(),
           folder.string());
     }
     return bad_input("this is not a folder", folder.string());
@@ -99,7 +99,7 @@ Expected<std::vector<std::filesystem::path>> make_key_folder(const KeyFolder& fo
   for (const auto& [file, text] : files) {
     if (std::error_code ignored; !std::filesystem::exists(file, ignored)) continue;
     return unexpected(ErrorKind::Conflict,
-                      "exists already, and keys are never overwritten; name another folder, or "
+                      "already exists, and keys are never overwritten; name another folder, or "
                       "add a client to this one with --client NAME",
                       file.string());
   }
@@ -113,8 +113,9 @@ Expected<std::vector<std::filesystem::path>> make_key_folder(const KeyFolder& fo
 
 Expected<std::filesystem::path> add_client(const KeyFolder& folder, const NewClient& client) {
   if (!is_client_name(client.name)) {
-    return bad_input("a client's name has letters, digits, \".\", \"_\" and \"-\", at most 64",
-                     client.name);
+    return bad_input(
+        "a client's name must consist of at most 64 letters, digits, \".\", \"_\" and \"-\"",
+        client.name);
   }
   Expected<KeyPair> server = read_server_key(folder.server_key());
   if (!server) {
@@ -131,7 +132,7 @@ Expected<std::filesystem::path> add_client(const KeyFolder& folder, const NewCli
   if (!list) return Unexpected(list.error().front());
   if (std::ranges::find(*list, client.name, &AllowedClient::name) != list->end()) {
     return unexpected(ErrorKind::Conflict,
-                      "there is a client \"" + client.name + "\"; choose another name",
+                      "a client \"" + client.name + "\" already exists; choose another name",
                       folder.clients().string());
   }
   const ClientKeyFile key = new_key(client.name, client.role, server->public_key);

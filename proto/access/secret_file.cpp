@@ -37,21 +37,21 @@ std::string objection_to(const struct stat& status, const std::filesystem::path&
   if (privacy == Privacy::Secret) {
     if (status.st_uid != geteuid()) {
       return "the file belongs to another user (id " + std::to_string(status.st_uid) +
-             "); take it over: chown " + std::to_string(geteuid()) + " " + file.string();
+             "); change its owner: chown " + std::to_string(geteuid()) + " " + file.string();
     }
     if ((status.st_mode & 077U) != 0) {
-      return "others may read this secret; take it back: chmod 600 " + file.string();
+      return "other users can read this secret; forbid it: chmod 600 " + file.string();
     }
     return "";
   }
   // A file of root is as safe as a file of this user.
   if (status.st_uid != geteuid() && status.st_uid != 0) {
     return "the file belongs to another user (id " + std::to_string(status.st_uid) +
-           "), who could admit anybody; take it over: chown " + std::to_string(geteuid()) + " " +
-           file.string();
+           "), who could let anyone connect; change its owner: chown " + std::to_string(geteuid()) +
+           " " + file.string();
   }
   if ((status.st_mode & 022U) != 0) {
-    return "others may write this file; take it back: chmod go-w " + file.string();
+    return "other users can change this file; forbid it: chmod go-w " + file.string();
   }
   return "";
 }
@@ -103,7 +103,7 @@ Expected<void> write_new_file(const std::filesystem::path& file, std::string_vie
       ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600));
   if (made.number() < 0) {
     if (errno == EEXIST) {
-      return unexpected(ErrorKind::Conflict, "is there already, and keys are never overwritten",
+      return unexpected(ErrorKind::Conflict, "already exists, and keys are never overwritten",
                         file.string());
     }
     return unexpected(ErrorKind::Unavailable, "cannot be made: " + reason(), file.string());

@@ -25,7 +25,7 @@ void write(const WorkerMethod& method, pb::Method& out) {
 Expected<WorkerMethod> read(const pb::Method& message) {
   if (message.turn_clock() != pb::Method::TURN_CLOCK_CYCLES &&
       message.turn_clock() != pb::Method::TURN_CLOCK_SECONDS) {
-    return bad_input("a clock of turns that this program does not know", "turn_clock");
+    return bad_input("a turn clock that this program does not know", "turn_clock");
   }
   const bool cycles = message.turn_clock() == pb::Method::TURN_CLOCK_CYCLES;
   WorkerMethod method{message.flavour(), cycles ? TurnClock::Cycles : TurnClock::Seconds};

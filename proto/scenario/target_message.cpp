@@ -61,31 +61,31 @@ void to_message(const InstanceTexts& instances, pb::InstanceTexts& out) {
 }
 
 Expected<Target> from_message(const pb::Target& message) {
-  if (!is_path(message.runner())) return bad_input("no absolute path", "runner");
-  if (!is_path_or_empty(message.launcher())) return bad_input("no absolute path", "launcher");
-  if (!is_path_or_empty(message.evaluator())) return bad_input("no absolute path", "evaluator");
-  if (!is_path(message.folder())) return bad_input("no absolute path", "folder");
+  if (!is_path(message.runner())) return bad_input("not an absolute path", "runner");
+  if (!is_path_or_empty(message.launcher())) return bad_input("not an absolute path", "launcher");
+  if (!is_path_or_empty(message.evaluator())) return bad_input("not an absolute path", "evaluator");
+  if (!is_path(message.folder())) return bad_input("not an absolute path", "folder");
   if (!is_text(message.command_line())) {
     return bad_input("too long, or with a NUL byte", "command_line");
   }
   if (message.retries() < 0 || message.retries() > kMostRetries) {
-    return bad_input("a number out of its limits", "retries");
+    return bad_input("a number outside of its limits", "retries");
   }
   if (message.timeout_s() < 0 || message.timeout_s() > kLongestTimeout) {
-    return bad_input("a number out of its limits", "timeout_s");
+    return bad_input("a number outside of its limits", "timeout_s");
   }
   if (!std::isfinite(message.min_measurable_time()) || message.min_measurable_time() < 0) {
-    return bad_input("a number out of its limits", "min_measurable_time");
+    return bad_input("a number outside of its limits", "min_measurable_time");
   }
   if (message.debug_level() < 0 || message.debug_level() > 3) {
-    return bad_input("a number out of its limits", "debug_level");
+    return bad_input("a number outside of its limits", "debug_level");
   }
   if (!pb::Target::BatchMode_IsValid(message.batch_mode())) {
     return bad_input("a batch system that this program does not know", "batch_mode");
   }
   const auto batch_mode = static_cast<BatchMode>(message.batch_mode());
   if (batch_mode != BatchMode::None && message.evaluator().empty()) {
-    return bad_input("in batch mode a targetEvaluator has to say the costs", "evaluator");
+    return bad_input("batch mode needs a targetEvaluator, which prints the costs", "evaluator");
   }
   return Target{.runner = message.runner(),
                 .launcher = message.launcher(),

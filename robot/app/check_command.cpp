@@ -66,8 +66,8 @@ ExitCode check(const CheckWords& words, Output& output) {
 
 CommandRun declare_robot_check(Options& options) {
   auto words = std::make_shared<CheckWords>();
-  options.text("--robots ROBOTS", words->robots,
-               "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);
+  options.text("--robots ROBOTS", words->robots, "Robots: 1-3 for rvr1, rvr2, rvr3; or their names",
+               Options::Need::Required);
   options.number("--seconds", words->seconds, {0.1, 3600},
                  "How long to wait for answers (default 5)");
   words->transport.declare_client(options);

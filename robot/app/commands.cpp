@@ -23,15 +23,15 @@ A simulated world in place of the robots' drivers, with the nodes of `swarmsmith
 In lock-step (nodes: --lock-step senses, or topics) it prints the scores of `evaluate`, bit for
 bit. In real time it is a laboratory: `swarmsmith robot start` begins the run, a command acts
 when it comes, and the drivers stop the treads 300 ms after the last one. Exit code 1: bits or
-answers are wrong; 5: a robot's node is not there or does not answer.)";
+answers are wrong; 5: a robot's node is not connected or does not answer.)";
 constexpr std::string_view kStartDetails = R"(Examples:
   swarmsmith robot start --run run07 --robots 1-3 --seconds 120
   swarmsmith robot start --run run07 --robots 1-3 --mission aggregation --design d3 \
       --video run07.mkv --robot-logs logs/
 
-Asks all nodes who they are, measures their clocks, and refuses with reasons when something is
-missing. Then all begin at an agreed instant. If a robot falls silent or fails, all stop;
-Ctrl-C stops all. Run it on the computer that records the video: the run log then has the
+Checks all nodes and measures their clocks. If something is missing, it says what, and starts
+nothing. Otherwise all robots begin at the same instant. If one does not answer or fails, all
+stop; Ctrl-C stops all. Use the computer that records the video: then the run log has the
 start. Exit code 6: the run is INVALID; 1: nothing was started; 5: a robot does not answer.)";
 constexpr std::string_view kStopDetails = R"(Examples:
   swarmsmith robot stop --robots 1-3
@@ -47,23 +47,23 @@ constexpr std::string_view kReplayDetails = R"(Examples:
   swarmsmith robot replay runs/*.log.csv
 
 Steps the machine of the log through the readings of the log. Exit code 0: each command,
-state and random number has the bits of the log; 1: it says at which cycle one differs; 2: the
-log cannot be read.)";
+state and random number has the same bits as in the log; 1: it prints the first cycle that
+differs; 2: the log cannot be read.)";
 
 constexpr std::array kCommands = {
     ProgramCommand{"run", "Run a machine on a robot", kRunDetails, declare_robot_run, nullptr,
                    without_ros_words},
     ProgramCommand{"world", "Play the world for robots' nodes", kWorldDetails, declare_robot_world,
                    nullptr, without_ros_words},
-    ProgramCommand{"start", "Start a run on all robots, and watch over it", kStartDetails,
+    ProgramCommand{"start", "Start a run on all robots, and watch it", kStartDetails,
                    declare_robot_start, nullptr, without_ros_words},
     ProgramCommand{"stop", "Stop robots", kStopDetails, declare_robot_stop, nullptr,
                    without_ros_words},
     ProgramCommand{"check", "Say which robots are there, and whether a run can start",
                    kCheckDetails, declare_robot_check, nullptr, without_ros_words},
-    ProgramCommand{"replay", "Step a machine through logs of robots and compare", kReplayDetails,
+    ProgramCommand{"replay", "Step a machine through robots' logs, and compare", kReplayDetails,
                    declare_robot_replay},
-    ProgramCommand{"version", "Print the version, and whether ROS is in it", "",
+    ProgramCommand{"version", "Print the version, and whether it includes ROS", "",
                    declare_robot_version},
 };
 

@@ -19,7 +19,7 @@ Expected<FiledMachine> filed_machine(const std::string& word) {
   if (!machines) return Unexpected(machines.error().front());
   if (machines->size() > 1) {
     return bad_input("the file has " + std::to_string(machines->size()) +
-                         " machines, and a robot runs one: write it into a file of its own "
+                         " machines, but a robot runs only one: write it into its own file "
                          "(swarmsmith export demo.db --design d1 -o best.fsm)",
                      word);
   }
@@ -35,8 +35,8 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
   if (flavour.empty()) flavour = filed->head.flavour;
   if (flavour.empty()) {
     return bad_input(
-        "the machine does not say for which flavour it was designed, and means "
-        "something else under another one: give --flavour",
+        "the machine does not name its flavour, and its meaning depends on the "
+        "flavour: give --flavour",
         filed->place);
   }
   if (!turn_clock) turn_clock = filed->head.turn_clock;
@@ -55,7 +55,7 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
   const auto& mission = filed->head.mission;
   if (mission && mission->mission.robot != rvr_with(mission->mission.robot.body.outline)) {
     return bad_input("the machine was designed for the robot `" + mission->mission.robot.name +
-                         "`, and this program drives RVRs",
+                         "`, but this program drives RVRs",
                      filed->place);
   }
   auto controller = parse_controller(filed->text, *known);

@@ -83,8 +83,8 @@ bool NodeLoop::turn_in_lock_step() {
     hear(*message);
   } else {
     if (node_.is_on() && steady_now() - world_heard_ > options_.patience) {
-      const std::string why =
-          fmt::format("the world is silent for {:.1f} s", seconds_of(steady_now() - world_heard_));
+      const std::string why = fmt::format("no message from the world for {:.1f} s",
+                                          seconds_of(steady_now() - world_heard_));
       node_.fail(why);
       options_.note(why);
       finish(Ending::Lost);
@@ -128,8 +128,8 @@ void NodeLoop::hear_order(const OrderMessage& message) {
   }
   if (!order->unknown_keys.empty() && order->unknown_keys != last_unknown_) {
     last_unknown_ = order->unknown_keys;
-    options_.note("an order " + std::string(name_of(order->kind)) + " has the key " +
-                  order->unknown_keys + ", which no order has: it is ignored");
+    options_.note("an order " + std::string(name_of(order->kind)) + " has the unknown key " +
+                  order->unknown_keys + ", which is ignored");
   }
   const bool was_on = node_.is_on();
   node_.hear(*order, now_on_both_clocks());
@@ -222,7 +222,7 @@ void NodeLoop::open_log() {
     node_.set_log_open(true);
     return;
   }
-  const std::string why = "no log can be written: " + to_string(opened.error());
+  const std::string why = "the log cannot be written: " + to_string(opened.error());
   options_.note(why);
   if (options_.pace == Pace::Clock) {
     node_.disarm(why);
@@ -245,7 +245,7 @@ void NodeLoop::tend_log() {
   node_.set_log_trouble(last);
   if (!last.empty()) {
     node_.lose_log();
-    options_.note("the log is not whole: " + last);
+    options_.note("the log is incomplete: " + last);
   }
   log_.reset();
   node_.set_log_open(false);

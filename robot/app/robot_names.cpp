@@ -25,7 +25,7 @@ std::int64_t number_of(std::string_view word) {
 
 Expected<std::string> robot_name(const std::string& word) {
   if (is_number(word)) {
-    if (number_of(word) < 1) return bad_input("robots count from 1", "--robot");
+    if (number_of(word) < 1) return bad_input("robots are numbered from 1", "--robot");
     return kStem + std::to_string(number_of(word));
   }
   if (!is_plain_name(word) || (word[0] >= '0' && word[0] <= '9') || word[0] == '-')
@@ -64,7 +64,7 @@ Expected<std::vector<std::string>> robot_names(const std::string& words) {
   std::vector<std::string> sorted = names;
   std::ranges::sort(sorted);
   if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-    return bad_input("the robot " + *twice + " is there twice", "--robots");
+    return bad_input("the robot " + *twice + " is named twice", "--robots");
   return names;
 }
 

@@ -58,8 +58,9 @@ struct RunWords {
 
 Expected<Feed> feed_by(const std::string& name, const char* option) {
   if (const auto feed = named<Feed>(name)) return *feed;
-  return bad_input("there is no sensor `" + name + "`: proximity, ground, neighbours or light",
-                   option);
+  return bad_input(
+      "there is no sensor `" + name + "`; sensors are proximity, ground, neighbours, light",
+      option);
 }
 
 Expected<std::vector<Rgb>> labels_of(const std::string& words) {
@@ -94,8 +95,8 @@ Expected<void> read_name(const RunWords& words, NodeSettings& settings) {
   const auto index = words.index ? static_cast<int>(*words.index) : index_in_name(settings.robot);
   if (!index) {
     return bad_input(
-        "the name has no number that tells the robot's random stream: give --index, "
-        "from 0, another one for each robot",
+        "the name has no number to choose the robot's random stream: give --index, "
+        "from 0, a different one for each robot",
         "--robot");
   }
   settings.robot_index = *index;
@@ -108,7 +109,7 @@ Expected<NodeSettings> settings_of(const RunWords& words) {
   settings.seed = words.seed.value_or(1);
   settings.lock_step_run = words.run;
   if (!is_plain_name(words.run))
-    return bad_input("a run's name has letters, digits, - and _", "--run");
+    return bad_input("a run's name must consist of letters, digits, - and _", "--run");
   settings.period = duration_of(words.period_s);
   if (words.pace != Pace::Clock) settings.max_mps = kMaxWheelSpeed_mps;  // as in the simulator
   settings.max_mps = words.max_mps.value_or(settings.max_mps);
@@ -215,7 +216,7 @@ ExitCode run(const RunWords& words, Output& output) {
   if (needed[index_of(Feed::Ground)] && !words.color_scale && pace != Pace::Senses) {
     return fail(output, ExitCode::Usage,
                 {ErrorKind::BadInput,
-                 "the machine looks at the floor: say which value of the driver is full colour, "
+                 "the machine reads the floor's colour: give the driver's value of full colour, "
                  "255 or 1",
                  "--color-scale"});
   }
@@ -243,51 +244,53 @@ ExitCode run(const RunWords& words, Output& output) {
 CommandRun declare_robot_run(Options& options) {
   auto words = std::make_shared<RunWords>();
   constexpr auto kNeeded = Options::Need::Required;
-  options.text("--robot ROBOT", words->robot, "Which robot: 2 is rvr2; or its name", kNeeded);
+  options.text("--robot ROBOT", words->robot, "Robot: 2 for rvr2; or its name", kNeeded);
   options.text("--machine MACHINE|FILE", words->machine,
                "Machine, tree or network: a text or a file", kNeeded);
   options.text("--flavour FLAVOUR|FILE", words->flavour,
-               "What its modules do (default: as its file says)");
+               "Flavour of the machine (default: as its file says)");
   options.choice("--turn-clock", words->turn_clock,
                  {{"cycles", TurnClock::Cycles}, {"seconds", TurnClock::Seconds}},
-                 "What a turn is measured in");
+                 "Unit of a turn's length");
   options.integer("--seed", words->seed, {1, 2147483647},
-                  "Of the random numbers (default 1; a start may give another)");
+                  "Seed of the random numbers (default 1; `start` may give another)");
   options.integer("--index", words->index, {0, 100000},
-                  "Of the robot's random stream, from 0 (default: the name's number minus 1)");
+                  "Index of the robot's random stream, from 0 (default: the name's number "
+                  "minus 1)");
   options.choice("--lock-step", words->pace,
                  {{"senses", Pace::Senses}, {"topics", Pace::CountedTopics}},
-                 "Be stepped by a simulated world (swarmsmith robot world)");
+                 "A simulated world steps this node (swarmsmith robot world)");
   options.text("--run NAME", words->run, "Name of runs in lock-step, for logs (default run)");
   words->transport.declare_node(options);
   options.choice("--ranges", words->ranges_apart, {{"array", false}, {"apart", true}},
-                 "Proximity as one topic `ranges` or as eight (default array)");
+                 "Proximity in one topic `ranges`, or in eight (default array)");
   options.choice("--neighbours", words->scan, {{"scan", true}, {"neighbours", false}},
-                 "Neighbours from a lidar's `scan` or ready (default scan)");
+                 "Neighbours from a lidar's `scan`, or from `neighbours` (default scan)");
   declare_wheels(options, words->wheels);
   options.number("--color-scale", words->color_scale, {1e-6, 1e6},
                  "The driver's value of full colour: 255 or 1");
   options.text("--labels", words->labels,
-               "Colours of the floor, black,white,red: the nearest takes a reading's place");
+               "Colours of the floor, black,white,red: a reading becomes the nearest of them");
   options.number("--lidar-turn", words->lidar_turn_deg, {-360, 360},
-                 "Degrees of the lidar's zero from the robot's head, counter-clockwise");
+                 "Angle from the robot's front to the lidar's zero, degrees counter-clockwise");
   options.number("--proximity-range", words->proximity_range_m, {kBlindZone_m, 100},
-                 "Metres beyond which proximity sensors see nothing (default 0.4)");
+                 "Range of the proximity sensors in metres (default 0.4)");
   options.number("--period SECONDS", words->period_s, {0.001, 10},
-                 "Seconds of a control cycle (default 0.1)");
+                 "Length of a control cycle (default 0.1)");
   options.number("--max-speed SPEED", words->max_mps, {0.01, kMaxWheelSpeed_mps},
-                 "Of a tread, m/s (default 0.35)");
+                 "Largest speed of a tread, m/s (default 0.35)");
   options.texts("--max-age", words->max_ages,
-                "SENSOR=SECONDS of silence until the treads stop, repeatable (default "
+                "SENSOR=SECONDS without a message until the treads stop, repeatable (default "
                 "proximity=0.3, all others 0.35)");
-  options.texts("--need SENSOR", words->needs, "A sensor that must be there besides the machine's");
+  options.texts("--need SENSOR", words->needs,
+                "A sensor that is needed, although the machine does not read it");
   options.number("--operator-gone", words->operator_gone_s, {0, 3600},
-                 "Seconds of silence of `start` that end a run; 0: never (default 1)");
+                 "End a run after N seconds without `start`; 0: never (default 1)");
   options.number("--least-battery PERCENT", words->least_battery_percent, {0, 100},
-                 "Percent, less starts no run (default 20)");
+                 "Do not start a run with less battery (default 20)");
   options.text("--logs DIR", words->logs, "Folder of logs (default: here; in lock-step: none)");
   options.number("--patience SECONDS", words->patience_s, {0.1, 3600},
-                 "Seconds that a world in lock-step may be silent (default 10)");
+                 "Seconds to wait for a world in lock-step (default 10)");
   options.flag("--pipe", words->pipe, "End when standard input ends");
   options.flag("--normal-priority", words->normal_priority, "Do not ask for SCHED_FIFO");
   return [words](Output& output) { return run(*words, output); };

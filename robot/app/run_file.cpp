@@ -56,20 +56,20 @@ std::optional<CameraClock> clock_of(const std::string& video,
 
 void RunFileWords::declare(Options& options) {
   options.text("--write FILE", write, "Run log for `swarmsmith track score` (default RUN.toml)");
-  options.flag("--no-run-log", none, "Write none");
+  options.flag("--no-run-log", none, "Do not write a run log");
   options.text("--mission MISSION|FILE", run.mission,
                "For that log: the mission, a name or a file");
-  options.text("--design DESIGN", run.design, "For that log: what ran, d3: a design's winner");
-  options.text("--candidate CANDIDATE", run.candidate, "For that log: what ran, c812");
+  options.text("--design DESIGN", run.design, "For that log: the design whose winner ran, d3");
+  options.text("--candidate CANDIDATE", run.candidate,
+               "For that log: the candidate that ran, c812");
   options.text("--video FILE", run.video,
                "For that log: the video that is recorded on this computer");
   options.text("--camera CAMERA", run.camera,
                "For that log: the video's camera, as in the arena file");
-  options.text("--robot-logs DIR", logs,
-               "For that log: the folder in which the robots' logs will be");
+  options.text("--robot-logs DIR", logs, "For that log: the folder where you put the robots' logs");
   options.integer("--sync-tag", sync_tag, {0, 100000}, "For that log: a tag covered at the start");
   options.flag("--patches", run.has_patches,
-               "For that log: colour patches are to be found in the picture");
+               "For that log: measure the colour patches in the video");
 }
 
 Expected<void> RunFileWords::check(const std::string& name) const {
@@ -78,7 +78,7 @@ Expected<void> RunFileWords::check(const std::string& name) const {
   std::error_code ignored;
   if (std::filesystem::exists(file, ignored)) {
     return unexpected(ErrorKind::Conflict,
-                      "it is there already, from an earlier run; give the run another name, or "
+                      "already exists, from an earlier run; give the run another name, or "
                       "another file with --write",
                       file);
   }

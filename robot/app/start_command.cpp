@@ -37,7 +37,7 @@ class Teller {
     if (starter.stage() != stage_) {
       stage_ = starter.stage();
       if (stage_ == RunStarter::Stage::Ordered)
-        print_note(*output_, "all robots are ready: the run is ordered");
+        print_note(*output_, "all robots are ready: ordering the run");
       if (stage_ == RunStarter::Stage::Stopping)
         print_note(*output_, starter.complaints().front() + "; stopping all robots");
     }
@@ -113,8 +113,9 @@ ExitCode start(const StartWords& words, Output& output) {
   const auto names = robot_names(words.robots);
   if (!names) return fail(output, ExitCode::Usage, names.error());
   if (!is_plain_name(words.run)) {
-    return fail(output, ExitCode::Usage,
-                {ErrorKind::BadInput, "a run's name has letters, digits, - and _", "--run"});
+    return fail(
+        output, ExitCode::Usage,
+        {ErrorKind::BadInput, "a run's name must consist of letters, digits, - and _", "--run"});
   }
   const auto place = words.file.check(words.run);
   if (!place) return fail(output, ExitCode::Usage, place.error());
@@ -170,18 +171,19 @@ ExitCode start(const StartWords& words, Output& output) {
 
 CommandRun declare_robot_start(Options& options) {
   auto words = std::make_shared<StartWords>();
-  options.text("--run NAME", words->run, "Name of the run; no robot takes one twice",
+  options.text("--run NAME", words->run,
+               "Name of the run; robots refuse a name that they had before",
                Options::Need::Required);
-  options.text("--robots ROBOTS", words->robots,
-               "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);
+  options.text("--robots ROBOTS", words->robots, "Robots: 1-3 for rvr1, rvr2, rvr3; or their names",
+               Options::Need::Required);
   options.number("--seconds", words->seconds, {0.5, 86'400},
                  "How long the run lasts (default 120)");
   options.integer("--seed", words->seed, {1, 2147483647},
-                  "Of the random numbers of this run (default: the nodes' own)");
+                  "Seed of the random numbers of this run (default: the nodes' own)");
   options.number("--in", words->lead_s, {0.5, 60},
                  "Seconds from the order to the start (default 2)");
   options.number("--patience SECONDS", words->patience_s, {0.5, 3600},
-                 "Seconds until all robots have answered and are ready (default 5)");
+                 "Seconds to wait until all robots are ready (default 5)");
   words->file.declare(options);
   words->transport.declare_client(options);
   return [words](Output& output) { return start(*words, output); };

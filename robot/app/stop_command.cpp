@@ -68,9 +68,9 @@ ExitCode stop(const StopWords& words, Output& output) {
 
 CommandRun declare_robot_stop(Options& options) {
   auto words = std::make_shared<StopWords>();
-  options.text("--robots ROBOTS", words->robots,
-               "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);
-  options.flag("--kill", words->kill, "And let no run start until the nodes are restarted");
+  options.text("--robots ROBOTS", words->robots, "Robots: 1-3 for rvr1, rvr2, rvr3; or their names",
+               Options::Need::Required);
+  options.flag("--kill", words->kill, "Also refuse new runs until the nodes are restarted");
   words->transport.declare_client(options);
   return [words](Output& output) { return stop(*words, output); };
 }

@@ -40,13 +40,13 @@ Expected<std::vector<RobotPlace>> places_of(const TransportWords& words,
       return bad_input("write NAME=tcp://HOST:PORT, such as rvr1=tcp://10.0.0.11:5570",
                        "--at " + word);
     if (!endpoints.emplace(word.substr(0, equals), word.substr(equals + 1)).second)
-      return bad_input("is there twice", "--at " + word);
+      return bad_input("is given twice", "--at " + word);
   }
   std::vector<RobotPlace> places;
   for (const std::string& name : names) {
     const auto found = endpoints.find(name);
     if (found == endpoints.end()) {
-      return bad_input("does not say where " + name + "'s node is: add --at " + name +
+      return bad_input("the address of " + name + "'s node is missing: add --at " + name +
                            "=tcp://HOST:PORT, as the node prints it",
                        "--at");
     }
@@ -69,9 +69,9 @@ Expected<NodeClientOptions> client_options(const TransportWords& words, const En
 Expected<void> check_words(const TransportWords& words) {
   const bool ros = words.transport == "ros";
   if (!ros && !words.topics.empty())
-    return bad_input("topics have other names only over ROS", "--topic");
+    return bad_input("only topics of ROS can be renamed", "--topic");
   const auto only = [&](bool given, const char* option) -> Expected<void> {
-    if (ros && given) return bad_input("is for --transport zeromq", option);
+    if (ros && given) return bad_input("works only with --transport zeromq", option);
     return {};
   };
   for (const auto& checked :
@@ -87,25 +87,25 @@ Expected<void> check_words(const TransportWords& words) {
 void TransportWords::declare(Options& options) {
   transport = "ros";
   options.choice("--transport", transport, {"ros", "zeromq"},
-                 "How messages travel: topics of ROS 1, or ZeroMQ with keys (default ros)");
-  options.texts("--topic", topics, "A topic's name of ours, :=, and the name it has, repeatable");
+                 "Send messages over topics of ROS 1, or over ZeroMQ with keys (default ros)");
+  options.texts("--topic", topics, "Rename a topic: OURS:=THEIRS; repeatable");
 }
 
 void TransportWords::declare_node(Options& options) {
   declare(options);
   options.text("--bind HOST:PORT", bind,
-               "Of zeromq: where drivers, worlds and operators connect (default "
+               "ZeroMQ: address where drivers, worlds and operators connect (default "
                "tcp://127.0.0.1:5570)");
   options.text("--keys DIR", keys,
-               "Of zeromq: folder with server.key and clients.toml, as `swarmsmith keygen` makes "
-               "it; needed where other hosts connect");
+               "ZeroMQ: folder with server.key and clients.toml, made by `swarmsmith keygen`; "
+               "needed if other hosts connect");
 }
 
 void TransportWords::declare_client(Options& options) {
   declare(options);
-  options.texts("--at", at, "Of zeromq: NAME=tcp://HOST:PORT of a robot's node, repeatable");
+  options.texts("--at", at, "ZeroMQ: NAME=tcp://HOST:PORT of a robot's node, repeatable");
   options.text("--key FILE", key,
-               "Of zeromq: file with a key: a worker's for worlds, an operator's for orders");
+               "ZeroMQ: key file, a worker's for worlds, an operator's for orders");
 }
 
 void declare_wheels(Options& options, WheelsForm& wheels) {
@@ -113,7 +113,7 @@ void declare_wheels(Options& options, WheelsForm& wheels) {
                  {{"doubles", WheelsForm::Doubles},
                   {"floats", WheelsForm::Floats},
                   {"twist", WheelsForm::Twist}},
-                 "How speeds travel (default doubles)");
+                 "Type of the messages with speeds (default doubles)");
 }
 
 Expected<std::unique_ptr<RobotEnd>> open_robot_end(const TransportWords& words,

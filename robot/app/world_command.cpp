@@ -80,16 +80,19 @@ Expected<void> check_words(const WorldWords& words) {
         "the clock)");
   }
   if (words.topics && words.real_time) {
-    return bad_input("is for --lock-step; in real time there are no other topics", "--topics");
+    return bad_input("works only with --lock-step; real time always uses the drivers' topics",
+                     "--topics");
   }
   if (words.compare && words.real_time) {
-    return bad_input("only runs in lock-step have the same bits each time", "--compare");
+    return bad_input("works only with --lock-step; other runs differ each time", "--compare");
   }
   if (words.compare && words.machine.empty()) {
     return bad_input("needs the machine that the nodes run: --machine FILE", "--compare");
   }
-  if (words.at_once && !words.real_time) return bad_input("is for --real-time", "--at-once");
-  if (!words.faults.empty() && !words.real_time) return bad_input("is for --real-time", "--fault");
+  if (words.at_once && !words.real_time)
+    return bad_input("works only with --real-time", "--at-once");
+  if (!words.faults.empty() && !words.real_time)
+    return bad_input("works only with --real-time", "--fault");
   return {};
 }
 
@@ -138,7 +141,7 @@ Expected<Plan> plan_of(const WorldWords& words, Output& output) {
   plan.mission = std::move(mission->mission);
   if (plan.mission.robot != rvr_with(plan.mission.robot.body.outline)) {
     return bad_input("the mission has the robot `" + plan.mission.robot.name +
-                         "`, and nodes drive RVRs; `swarmsmith evaluate` simulates it",
+                         "`, but nodes drive RVRs; `swarmsmith evaluate` simulates it",
                      "--mission");
   }
   auto profile = find_profile(words.profile, {});
@@ -149,9 +152,8 @@ Expected<Plan> plan_of(const WorldWords& words, Output& output) {
   plan.seeds = std::move(*seeds);
   const bool one_run = words.real_time || words.topics || !words.csv.empty();
   if (one_run && plan.seeds.size() > 1) {
-    return bad_input(words.csv.empty()
-                         ? "nodes learn their seed when they start: one seed at a time"
-                         : "a table shows one run: name one seed",
+    return bad_input(words.csv.empty() ? "nodes get their seed when they start: give one seed"
+                                       : "a table has one run: give one seed",
                      "--seeds");
   }
   for (const std::int64_t seed : plan.seeds) {
@@ -297,14 +299,13 @@ class World {
     }
     if (plan_.end.sensors.senses) end_runs(end_);
     if (all_same) return ExitCode::Done;
-    return fail(
-        output_, ExitCode::Failed,
-        words_.topics
-            ? "the nodes' runs differ from those in process; messages on the drivers' "
-              "topics are float32: compare with a profile that has wire = \"float32\", and "
-              "--wheels floats on both sides"
-            : "the nodes' runs differ from those in process; do the nodes have this machine, "
-              "flavour and seed, and each its own random stream?");
+    return fail(output_, ExitCode::Failed,
+                words_.topics
+                    ? "the nodes' runs differ from those in this process; messages on the drivers' "
+                      "topics are float32: compare with a profile that has wire = \"float32\", and "
+                      "--wheels floats on both sides"
+                    : "the nodes' runs differ from those in this process; do the nodes have this "
+                      "machine, flavour and seed, and does each have its own random stream?");
   }
 
   Measured in_process(std::size_t i) const {
@@ -339,7 +340,7 @@ class World {
     if (!words_.at_once) {
       options.start_of = start_of;
       print_note(output_,
-                 "the robots stand in their places; start them with `swarmsmith-robot start`");
+                 "the robots are in their places; start them with `swarmsmith-robot start`");
     }
     const auto result =
         run_in_real_time(end_, plan_.end.sensors, run_at(0), options, table_.recorder());
@@ -397,26 +398,26 @@ CommandRun declare_robot_world(Options& options) {
                "Names of the robots, in the order of the mission: 1-3 or rvr1,rvr4 (default rvr1 "
                "and so on, as many as the mission has)");
   options.flag("--lock-step", words->lock_step,
-               "Wait for every answer of the nodes: scores and last states have the bits of "
-               "`evaluate`");
+               "Wait for every answer of the nodes: scores and last states are those of "
+               "`evaluate`, bit for bit");
   options.flag("--topics", words->topics,
-               "With --lock-step: on the drivers' topics, cycles by counting messages");
+               "With --lock-step: use the drivers' topics, and count their messages");
   options.flag("--real-time", words->real_time,
                "By the clock, as in a laboratory; `start` begins the run");
-  options.flag("--at-once", words->at_once, "With --real-time: begin when all nodes are there");
+  options.flag("--at-once", words->at_once, "With --real-time: begin when all nodes are connected");
   options.flag("--compare", words->compare,
-               "Run everything in this process, too, and say whether all bits agree");
+               "Also run everything in this process, and compare all bits");
   options.text("--machine MACHINE|FILE", words->machine, "For --compare: the machine of the nodes");
   options.text("--flavour FLAVOUR|FILE", words->flavour,
                "For --compare: its flavour (default: its file's)");
   options.choice("--turn-clock", words->turn_clock,
                  {{"cycles", TurnClock::Cycles}, {"seconds", TurnClock::Seconds}},
-                 "For --compare: what a turn is measured in");
+                 "For --compare: unit of a turn's length");
   options.choice("--ranges", words->ranges_apart, {{"array", false}, {"apart", true}},
-                 "Proximity as one topic `ranges` or as eight (default array)");
+                 "Proximity in one topic `ranges`, or in eight (default array)");
   options.choice(
       "--neighbours", words->scan, {{"neighbours", false}, {"scan", true}},
-      "Neighbours ready, or a lidar's `scan`, which has walls in it, too (default neighbours)");
+      "Send `neighbours`, or a lidar's `scan`, which also sees walls (default neighbours)");
   options.flag("--light", words->light, "Send `light`, for machines of flavour chocolate");
   declare_wheels(options, words->wheels);
   options.number("--wait SECONDS", words->wait_s, {0, 86'400},
@@ -424,7 +425,7 @@ CommandRun declare_robot_world(Options& options) {
   options.number("--patience SECONDS", words->patience_s, {0.05, 3600},
                  "Seconds to wait for an answer in lock-step (default 5)");
   options.texts("--fault", words->faults,
-                "Spoil a sensor for a while: ROBOT:SENSOR:WHAT:FROM-TO, such as "
+                "Disturb a sensor for a time: ROBOT:SENSOR:WHAT:FROM-TO, such as "
                 "rvr1:ranges:silent:10-10.3; repeatable");
   options.text("--csv FILE", words->csv, "Write the true poses and commands to this file");
   words->transport.declare_client(options);

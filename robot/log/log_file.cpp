@@ -30,7 +30,7 @@ Expected<LogFiles> log_files_at(const std::filesystem::path& either) {
                     either.parent_path() / (stem + std::string(kHead))};
   }
   return bad_input(
-      "a robot's log is two files, such as run07.rvr1.log.csv and run07.rvr1.toml; "
+      "a robot's log consists of two files, such as run07.rvr1.log.csv and run07.rvr1.toml; "
       "name one of them",
       either.string());
 }

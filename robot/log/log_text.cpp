@@ -198,7 +198,7 @@ class RowReader {
     }
     if (cell.empty() && numbers.size() % multiple == 0) return "";
     numbers.clear();
-    return "numbers with blanks between, a multiple of " + std::to_string(multiple);
+    return "numbers separated by blanks, as many as a multiple of " + std::to_string(multiple);
   }
 
   const std::vector<std::string>* cells_;
@@ -381,7 +381,7 @@ OrErrors<std::vector<LogRow>> parse_log_rows(std::string_view text, const std::s
   while (!reader.at_end()) {
     const std::size_t line = reader.line();
     const auto cells = reader.next();
-    if (!cells) return wrong(line, "a quote is opened and never closed");
+    if (!cells) return wrong(line, "a quote is not closed");
     if (cells->size() != columns().size()) {
       return wrong(line, "a row has " + std::to_string(columns().size()) +
                              " fields, this one has " + std::to_string(cells->size()));

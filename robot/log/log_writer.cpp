@@ -23,7 +23,7 @@ Expected<void> must_not_exist(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) return {};
   return unexpected(ErrorKind::Conflict,
-                    "it is there already, from an earlier run; give the run another name",
+                    "already exists, from an earlier run; give the run another name",
                     file.string());
 }
 

@@ -11,12 +11,12 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::string_view kLackOfClock =
-    "it is not from a camera that `swarmsmith track record` films on this host; name the start by "
-    "`track score --start`, or cover a tag";
+    "they are not from `swarmsmith track record` on this host; give the start with `track score "
+    "--start`, or cover a tag";
 
 /// The reason why the start time is unknown; empty if it is known.
 std::string doubt_of(const StartedRun& run, const std::optional<CameraClock>& clock) {
-  if (run.video.empty()) return "no video was named";
+  if (run.video.empty()) return "no video was given";
   if (!clock) return "the video's clock is not known";
   constexpr std::string_view kWhy =
       "was it filmed on another host, or is it the video of another run?";
@@ -86,7 +86,7 @@ Expected<CameraClock> camera_clock_of(std::string_view sidecar, const std::strin
     if (!clock) clock = CameraClock{*time_s, *clock_s, *clock_s};
     clock->last_clock_s = *clock_s;
   }
-  if (!clock) return bad_input("there is no frame in it yet; is the camera on?", file);
+  if (!clock) return bad_input("it has no frame yet; is the camera on?", file);
   return *clock;
 }
 

@@ -113,8 +113,8 @@ struct Node {
           if constexpr (kHasSender<Ours>) ours.sender = sender;
           if (from_ros(theirs, ours)) return put(std::move(ours));
           if (!complained.insert(whole_topic).second) return;
-          put(TroubleMessage{sender + " sent other numbers on " + topic +
-                             " than it has; they are not used"});
+          put(TroubleMessage{sender + " sent a message on " + topic +
+                             " with a wrong count of values; such messages are ignored"});
         });
   }
 };
@@ -255,8 +255,8 @@ class RosRobotEnd final : public RobotEnd {
   void not_believed(const std::string& sender) {
     constexpr int kMany = 20;
     if (++deaf_[sender] != kMany) return;
-    inbox_->put(TroubleMessage{sender + " says what the treads do, and does not listen to their "
-                                        "speeds; it is not believed",
+    inbox_->put(TroubleMessage{sender + " reports what the treads do, but does not listen to their "
+                                        "speeds; its reports are ignored",
                                false});
   }
 

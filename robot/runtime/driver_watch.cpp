@@ -129,7 +129,7 @@ std::string DriverWatch::why_behind(const Follows& follows) const {
   const double prompt = *std::max_element(share.begin(), late);
   const auto best = std::max_element(late, share.end());
   if (*best < kSure || *best - prompt < follows.better) return {};
-  return fmt::format("{} does each change {:.2f} s after its command", driver_,
+  return fmt::format("{} makes each change {:.2f} s after its command", driver_,
                      seconds_of((best - share.begin()) * kDelayStep));
 }
 
@@ -190,8 +190,8 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_not_done(TimePoint n
   if (sum <= limits_.give_up) return std::nullopt;
   return Trouble{
       changed_, true, sum > 2 * limits_.give_up,
-      fmt::format("{} does not do {}, which was commanded {} times, for {:.1f} s in all", driver_,
-                  speeds(last->left_mps, last->right_mps), times, seconds_of(sum))};
+      fmt::format("{} ignored the command {}, which was given {} times, for {:.1f} s in all",
+                  driver_, speeds(last->left_mps, last->right_mps), times, seconds_of(sum))};
 }
 
 void DriverWatch::extend(std::optional<Spell>& spell, const std::string& name, TimePoint at) {
@@ -269,27 +269,27 @@ void DriverWatch::begin(TimePoint start) {
 
 std::string DriverWatch::why_not_obeyed(TimePoint now) const {
   if (listeners_.empty())
-    return driver_ + " is gone: no driver listens to the speeds of the treads";
+    return driver_ + " has disconnected: no driver listens to the speeds of the treads";
   if (is_quiet(now)) {
     return second_ && now - second_->last <= kUsualSilence
                ? second_->name + " drives the treads in place of " + driver_
-               : driver_ + " does not say what the treads do";
+               : driver_ + " does not report what the treads do";
   }
   SWARMSMITH_ASSERT(last_, "a driver that is not quiet has said something");
   const Commanded wanted = commands_.empty() ? Commanded{} : commands_.back();
-  const std::string told = driver_ + " says that they do " +
-                           speeds(last_->left_mps, last_->right_mps) + ", and " +
-                           speeds(wanted.left_mps, wanted.right_mps) + " are commanded: ";
+  const std::string told = driver_ + " reports " + speeds(last_->left_mps, last_->right_mps) +
+                           ", and " + speeds(wanted.left_mps, wanted.right_mps) +
+                           " are commanded: ";
   const bool stands = last_->left_mps == 0 && last_->right_mps == 0;
   const auto until = commanded_until(*last_);
-  if (stands && (!until || now - *until > limits_.give_up)) return told + "it holds them";
+  if (stands && (!until || now - *until > limits_.give_up)) return told + "it stopped them";
   if (until) {
     return told + fmt::format("it is {:.2f} s behind{}", seconds_of(last_->arrival.at - *until),
-                              stands ? ", or holds them" : "");
+                              stands ? ", or stopped them" : "");
   }
   if (same(last_->left_mps, wanted.left_mps)) return told + "only the left one obeys";
   if (same(last_->right_mps, wanted.right_mps)) return told + "only the right one obeys";
-  return told + "it obeys another one";
+  return told + "it follows other commands";
 }
 
 std::optional<DriverWatch::Trouble> DriverWatch::trouble_of(const std::optional<Spell>& spell,
@@ -309,16 +309,16 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoin
   if (listeners_.empty())
     return since(std::max(listened_, obeyed_), "no driver listens to the speeds of the treads");
   if (replaced_ < listened_)
-    return since(replaced_, "another one came in place of the driver: " + names_of(listeners_));
+    return since(replaced_, "the driver was replaced by " + names_of(listeners_));
   // Any client that declares itself a driver may be the real one; others may be mere listeners.
   TimePoint heard{};
   for (const Listener& one : lively_) {
     heard = std::max(heard, one.heard);
     if (one.drives && now - one.heard > limits_.give_up)
-      return Trouble{one.heard, true, true, one.name + " gives no sign of life"};
+      return Trouble{one.heard, true, true, one.name + " does not respond"};
   }
   if (lively_.empty() || now - heard <= limits_.give_up) return std::nullopt;
-  return Trouble{heard, true, true, names_of(lively_) + " gives no sign of life"};
+  return Trouble{heard, true, true, names_of(lively_) + " does not respond"};
 }
 
 std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_driver(TimePoint now) {
@@ -353,9 +353,9 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_obedience(TimePoint 
 std::optional<DriverWatch::Trouble> DriverWatch::trouble(TimePoint now) {
   if (!runs_) return std::nullopt;
   const std::string beside =
-      (is_quiet(now) ? " drives the treads in place of " : " drives the treads, too, beside ") +
+      (is_quiet(now) ? " drives the treads in place of " : " also drives the treads, besides ") +
       driver_;
-  std::vector<std::optional<Trouble>> all = {trouble_of(rival_, " commands the treads, too", now),
+  std::vector<std::optional<Trouble>> all = {trouble_of(rival_, " also commands the treads", now),
                                              trouble_of(second_, beside, now)};
   if (driver_.empty()) {
     all.push_back(trouble_of_silent_kind(now));
@@ -381,7 +381,7 @@ std::vector<std::string> DriverWatch::not_ready(TimePoint now) const {
   if (listeners_.empty()) {
     reasons.emplace_back("driver: no driver listens to the speeds of the treads");
   } else if (last_ && listens(last_->sender) && now - last_->arrival.at > limits_.give_up) {
-    reasons.push_back(fmt::format("driver: {} has not said what the treads do for {:.1f} s",
+    reasons.push_back(fmt::format("driver: {} has not reported what the treads do for {:.1f} s",
                                   last_->sender, seconds_of(now - last_->arrival.at)));
   }
   if (other_ && last_ && now - other_->arrival.at <= limits_.give_up) {
@@ -389,7 +389,7 @@ std::vector<std::string> DriverWatch::not_ready(TimePoint now) const {
                       " both say that they drive the treads");
   }
   if (rival_ && now - rival_->last <= limits_.give_up)
-    reasons.push_back("driver: " + rival_->name + " commands the treads, too");
+    reasons.push_back("driver: " + rival_->name + " also commands the treads");
   return reasons;
 }
 
@@ -397,18 +397,18 @@ std::vector<std::string> DriverWatch::doubts() const {
   std::vector<std::string> doubts;
   if (driver_.empty()) {
     doubts.emplace_back(
-        "no driver says what the treads do (`driven`): one that stops obeying is not noticed");
+        "no driver reports what the treads do (`driven`): if it stops obeying, nothing shows it");
     for (const std::string& name : went_)
-      doubts.push_back(name + " listened to the speeds of the treads, and went in the run");
+      doubts.push_back(name +
+                       " listened to the speeds of the treads, but disconnected during the run");
   }
   constexpr double kFollows = 0.6;
   const Follows& soon = follows_.front();
   const auto late = soon.share.begin() + prompt_delays();
   if (soon.changes == soon.most && *std::max_element(soon.share.begin(), late) < kFollows)
-    doubts.push_back(driver_ +
-                     " says changes of speed that do not follow those that are commanded");
+    doubts.push_back(driver_ + " reports changes of speed that do not follow the commands");
   for (const std::string& name : came_later_)
-    doubts.push_back(name + " came in the run and says that it drives");
+    doubts.push_back(name + " connected during the run and says that it drives");
   return doubts;
 }
 

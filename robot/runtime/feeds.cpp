@@ -21,7 +21,7 @@ std::string proximity_sensor(std::size_t index) {
 }
 
 std::string wrong_count(std::size_t came) {
-  return std::to_string(kProximitySensors) + " values wanted, " + std::to_string(came) + " came";
+  return "expected " + std::to_string(kProximitySensors) + " values, got " + std::to_string(came);
 }
 
 std::uint8_t channel(double value, double scale) {

@@ -114,7 +114,7 @@ std::vector<std::string> RobotNode::not_ready(TimePoint now) const {
   for (std::string& reason : driver_.not_ready(now))
     reasons.push_back(std::move(reason));
   if (battery_ && *battery_ < settings_.least_battery) {
-    reasons.push_back(fmt::format("battery: {:.0f} %, at least {:.0f} % are wanted",
+    reasons.push_back(fmt::format("battery: {:.0f} %, at least {:.0f} % are needed",
                                   100 * *battery_, 100 * settings_.least_battery));
   }
   if (!log_trouble_.empty()) reasons.push_back("log: " + log_trouble_);
@@ -183,9 +183,9 @@ void RobotNode::obey(const Order& order, const Now& now) {
       return;
     case Order::Kind::Stop:
       if (!is_on()) {
-        refused_ = "no run is on";
+        refused_ = "no run is in progress";
       } else if (!order.run.empty() && order.run != run_) {
-        refused_ = "the run " + run_ + " is on, not " + order.run;
+        refused_ = "the run " + run_ + " is in progress, not " + order.run;
       } else {
         stop("by order");
       }
@@ -202,11 +202,11 @@ void RobotNode::obey(const Order& order, const Now& now) {
 
 void RobotNode::arm(const Order& order, const Now& now) {
   if (is_on()) {
-    refused_ = "the run " + run_ + " is on";
+    refused_ = "the run " + run_ + " is in progress";
     return;
   }
   if (runs_.contains(order.run)) {
-    refused_ = "the run " + order.run + " was here before; a new run needs a new name";
+    refused_ = "the robot has already had a run " + order.run + "; a new run needs a new name";
     return;
   }
   for (const std::string& reason : not_ready(now.clock))
@@ -214,7 +214,7 @@ void RobotNode::arm(const Order& order, const Now& now) {
   if (!refused_.empty()) return;
   const double ahead_s = order.at_unix_s - now.unix_s;
   if (!(ahead_s > 0 && ahead_s <= kLatestStart_s)) {
-    refused_ = fmt::format("the start is {:.1f} s {}; it must lie 0 to {:.0f} s ahead",
+    refused_ = fmt::format("the start is {:.1f} s {}; it must be 0 to {:.0f} s ahead",
                            std::fabs(ahead_s), ahead_s > 0 ? "ahead" : "ago", kLatestStart_s);
     return;
   }
@@ -293,11 +293,11 @@ void RobotNode::check_treads(const Command& command) const {
 
 std::string RobotNode::silence_of_operator(const Now& now) const {
   const double silent_s = seconds_of(now.clock - operator_heard_);
-  if (operator_behind_s_ == 0) return fmt::format("the operator is silent for {:.2f} s", silent_s);
+  if (operator_behind_s_ == 0)
+    return fmt::format("no message from the operator for {:.2f} s", silent_s);
   return fmt::format(
-      "the operator's orders have been dated {:.2f} s too early for {:.2f} s: its clock was "
-      "stepped "
-      "back, or the network holds them up",
+      "the operator's orders have had times {:.2f} s too early for {:.2f} s: its clock was set "
+      "back, or the network delays them",
       operator_behind_s_, silent_s);
 }
 
@@ -457,11 +457,11 @@ Expected<Decision> RobotNode::answer(const SensesMessage& senses, const Now& now
     if (phase_ == Phase::Running) end(Phase::Ended);
     begin(fmt::format("{}-seed{}", settings_.lock_step_run, senses.seed), senses.seed, 0, now);
   } else if (phase_ != Phase::Running || senses.cycle != cycle_ + 1 || senses.seed != seed_) {
-    std::string wrong =
-        phase_ == Phase::Running
-            ? fmt::format("cycle {} of seed {} came after cycle {} of seed {}", senses.cycle,
-                          senses.seed, cycle_, seed_)
-            : fmt::format("cycle {} of seed {} came, and no run is on", senses.cycle, senses.seed);
+    std::string wrong = phase_ == Phase::Running
+                            ? fmt::format("cycle {} of seed {} came after cycle {} of seed {}",
+                                          senses.cycle, senses.seed, cycle_, seed_)
+                            : fmt::format("cycle {} of seed {} came, but no run is in progress",
+                                          senses.cycle, senses.seed);
     fail(wrong);
     return bad_input(std::move(wrong));
   }
@@ -546,7 +546,7 @@ void RobotNode::judge() {
     reasons_.push_back(std::move(reason));
   };
   if (!broken_.empty()) add(RunVerdict::Invalid, broken_);
-  if (log_lost_) add(RunVerdict::Invalid, "the log is not whole: " + log_trouble_);
+  if (log_lost_) add(RunVerdict::Invalid, "the log is incomplete: " + log_trouble_);
   if (clock_ && clock_->cycles() > 0) {
     SWARMSMITH_ASSERT(held_ + skipped_ <= clock_->cycles(), "no cycle comes after the last one");
     const double share = static_cast<double>(skipped_) / static_cast<double>(clock_->cycles());

@@ -15,8 +15,8 @@ constexpr double kMostAhead_s = 1;
 
 Expected<void> check_start(const Order& order) {
   if (!order.unknown_keys.empty()) {
-    return bad_input("a start has no key " + order.unknown_keys +
-                     ": a run that is not the one that was meant does not begin");
+    return bad_input("a start has the unknown key " + order.unknown_keys +
+                     "; the run does not begin, because it could be another one than was meant");
   }
   if (!is_plain_name(order.run))
     return bad_input("a start needs a run's name of letters, digits, - and _");
@@ -72,9 +72,9 @@ std::optional<std::string> OrderDoor::refusal(const Order& order, double now_uni
     return fmt::format("the order is {:.1f} s old and was valid for {:.1f} s", age_s,
                        order.valid_s);
   if (age_s < -kMostAhead_s)
-    return fmt::format("the order comes from {:.1f} s ahead: the clocks differ", -age_s);
+    return fmt::format("the order's time is {:.1f} s in the future: the clocks differ", -age_s);
   if (order.kind == Order::Kind::Start && !starts_.insert(order.id).second)
-    return "the order was given before";
+    return "this order came before";
   return std::nullopt;
 }
 

@@ -37,7 +37,7 @@ Expected<TurnClock> turn_clock_of(const std::string& name) {
   for (const TurnClock clock : {TurnClock::Cycles, TurnClock::Seconds}) {
     if (name_of(clock) == name) return clock;
   }
-  return bad_input("there is no turn clock `" + name + "`; there are cycles and seconds");
+  return bad_input("there is no turn clock `" + name + "`; known are cycles and seconds");
 }
 
 Expected<Flavour> flavour_of(const LogHead& head, TurnClock turn_clock) {

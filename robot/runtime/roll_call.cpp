@@ -91,7 +91,8 @@ std::vector<std::string> RollCall::complaints(TimePoint now) const {
                            "they reach its node?");
     if (state.robot != robot.name)
       complaints.push_back(robot.name + ": its node calls itself " + state.robot);
-    if (is_on(state.phase)) complaints.push_back(robot.name + ": the run " + state.run + " is on");
+    if (is_on(state.phase))
+      complaints.push_back(robot.name + ": the run " + state.run + " is in progress");
     for (const std::string& reason : state.not_ready)
       complaints.push_back(robot.name + ": " + reason);
     if (std::fabs(robot.offset_s) > kMostOffset_s) {
@@ -114,7 +115,7 @@ std::vector<std::string> RollCall::complaints(TimePoint now) const {
       if (&before == &robot) break;
       if (before.state && before.state->robot_index == state.robot_index) {
         complaints.push_back(
-            fmt::format("{}: has the random stream {} of {}: give it another "
+            fmt::format("{}: has the random stream {}, as {}: give it another "
                         "--index",
                         robot.name, state.robot_index, before.name));
       }
@@ -243,7 +244,7 @@ void RunStarter::watch(const Now& now) {
     if (robot.state->order == start_id_ && !robot.state->refused.empty())
       return give_up(robot.name + ": refuses the start: " + robot.state->refused, now);
     if (now.clock - robot.heard > kMostSilence && !is_over_for(robot))
-      return give_up(robot.name + ": is silent for 1 s", now);
+      return give_up(robot.name + ": has sent nothing for 1 s", now);
     if (has_left(robot) && robot.state->phase != Phase::Ended) {
       const auto& reasons = robot.state->reasons;
       return give_up(fmt::format("{}: {}: {}", robot.name, name_of(robot.state->phase),
@@ -254,7 +255,7 @@ void RunStarter::watch(const Now& now) {
   const auto all = [this](auto what) { return std::ranges::all_of(roll_.robots(), what); };
   if (stage_ == Stage::Ordered) {
     if (!all([this](const RolledRobot& robot) { return is_in_run(robot); })) {
-      if (now.clock - called_ > kArmPatience) give_up("not all robots took the start", now);
+      if (now.clock - called_ > kArmPatience) give_up("not all robots accepted the start", now);
       return;
     }
     stage_ = Stage::Watching;

@@ -106,7 +106,7 @@ Expected<Fault> parse_fault(std::string_view text) {
     return bad_input(
         "write ROBOT:SENSOR:WHAT:FROM-TO, such as rvr1:ranges:silent:10-10.3; sensors: ranges, "
         "ground_color, scan, neighbours, light; what: silent, nan, turned (scan) or a number of "
-        "values (ranges, scan, light); seconds of the run, without TO for good",
+        "values (ranges, scan, light); times in seconds of the run, without TO: until its end",
         std::string(text));
   };
   const std::vector<std::string_view> parts = split(text, ':');

@@ -89,7 +89,7 @@ class LockStep final : public Decider {
         "no answer from " + end_->name(robot) + " in cycle " +
             std::to_string(robots_[robot].asked) + " of seed " + std::to_string(seed_) +
             " within " + seconds_text(options_->patience) +
-            (!there            ? "; its node is gone: its own messages say why"
+            (!there            ? "; its node has disconnected: its own messages say why"
              : sensors_.senses ? "; its node is connected, but does not answer"
                                : "; its node is connected, but does not answer: does it wait for "
                                  "a sensor that is not sent, or send its speeds elsewhere "
@@ -101,12 +101,13 @@ class LockStep final : public Decider {
     if (!sensors_.senses || robots_[robot].asked == 0) return;  // from an earlier run
     if (answer.seed != seed_ || answer.cycle != robots_[robot].asked ||
         !robots_[robot].answers.empty()) {
-      throw RunEnded({ErrorKind::BadInput,
-                      "was asked about cycle " + std::to_string(robots_[robot].asked) +
-                          " of seed " + std::to_string(seed_) + " and answers cycle " +
-                          std::to_string(answer.cycle) + " of seed " + std::to_string(answer.seed) +
-                          "; are there two nodes of this name, or is it one of an older run?",
-                      end_->name(robot)});
+      throw RunEnded(
+          {ErrorKind::BadInput,
+           "was asked about cycle " + std::to_string(robots_[robot].asked) + " of seed " +
+               std::to_string(seed_) + ", but answers cycle " + std::to_string(answer.cycle) +
+               " of seed " + std::to_string(answer.seed) +
+               "; are there two nodes of this name, or is it the node of an earlier run?",
+           end_->name(robot)});
     }
     robots_[robot].answers.push_back(
         {.command = {.left_mps = answer.left_mps, .right_mps = answer.right_mps, .leds = {}},
@@ -117,17 +118,18 @@ class LockStep final : public Decider {
     // Before the first question a node may send commands to stand still.
     if (sensors_.senses || robots_[robot].asked == 0) return;
     if (!wheels.state) {
-      throw RunEnded({ErrorKind::BadInput,
-                      "sends commands without the controller's state: its node does not run in "
-                      "lock-step by counting",
-                      end_->name(robot)});
+      throw RunEnded(
+          {ErrorKind::BadInput,
+           "sends commands without the controller's state; start its node with --lock-step "
+           "topics",
+           end_->name(robot)});
     }
     if (!robots_[robot].answers.empty()) {
-      throw RunEnded({ErrorKind::BadInput,
-                      "sends a command without being asked, in cycle " +
-                          std::to_string(robots_[robot].asked) +
-                          "; are there two nodes of this name, or is it one of an older run?",
-                      end_->name(robot)});
+      throw RunEnded(
+          {ErrorKind::BadInput,
+           "sends a command without being asked, in cycle " + std::to_string(robots_[robot].asked) +
+               "; are there two nodes of this name, or is it the node of an earlier run?",
+           end_->name(robot)});
     }
     robots_[robot].answers.push_back(
         {.command = {.left_mps = wheels.left_mps, .right_mps = wheels.right_mps, .leds = {}},
@@ -155,7 +157,7 @@ SimulationSetup WorldRun::setup() const {
 
 Expected<void> WorldRun::check(const WorldEnd& end) const {
   if (end.robots() == instance.starts.size()) return {};
-  return bad_input("the mission has " + counted(instance.starts.size(), "robot") + ", and " +
+  return bad_input("the mission has " + counted(instance.starts.size(), "robot") + ", but " +
                    std::to_string(end.robots()) + " are named");
 }
 

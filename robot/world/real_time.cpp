@@ -95,8 +95,8 @@ class Laboratory final : public Decider {
     say_driven(static_cast<std::size_t>(index));
     if (waits_ && treads->move()) {
       throw Broken(Error{ErrorKind::BadInput,
-                         "its node drives before a run was started; the robots are not where the "
-                         "mission begins any more",
+                         "its node drove before a run was started; the robots have left the places "
+                         "where the mission begins",
                          end_->name(static_cast<std::size_t>(index))});
     }
     return Answer{

@@ -24,9 +24,9 @@ std::optional<SimulatedDriver::Treads> SimulatedDriver::act(TimePoint now) {
   const bool had_rivals = std::exchange(rivals_, senders_.size() > 1);
   if (rivals_ && !had_rivals) {
     events_.push_back("two nodes command it, " + senders_[0].name + " and " + senders_[1].name +
-                      ": treads stopped until one alone does");
+                      ": treads stopped until only one does");
   }
-  if (had_rivals && !rivals_) events_.emplace_back("one node alone commands it again");
+  if (had_rivals && !rivals_) events_.emplace_back("only one node commands it again");
 
   const bool was_silent = std::exchange(silent_, now - heard_ > kSilence);
   if (silent_ && !was_silent) {

@@ -152,8 +152,8 @@ class ServingEnd final : public RobotEnd {
     const bool is_order = std::holds_alternative<OrderMessage>(*message);
     if (is_order ? !may_command(received.role) : !may_work(received.role)) {
       return complain(received.peer,
-                      is_order ? "gave an order, and its key is not an operator's"
-                               : "sent a sensor's message, and its key is not a worker's");
+                      is_order ? "gave an order, but its key is not an operator's"
+                               : "sent a sensor's message, but its key is not a worker's");
     }
     message = arrived(*std::move(message));
     if (auto* driven = std::get_if<DrivenMessage>(&*message)) {
@@ -161,8 +161,8 @@ class ServingEnd final : public RobotEnd {
       if (known == peers_.end() || !known->second.drives) {
         return complain(
             received.peer,
-            "says what the treads do, but is not a driver: it said no `hello driver`, or "
-            "another hello after it; it is not believed");
+            "reports what the treads do, but is not a driver: it sent no `hello driver`, or "
+            "another hello later; its reports are ignored");
       }
       driven->sender = known->second.name;
     }
@@ -179,11 +179,11 @@ class ServingEnd final : public RobotEnd {
   void greet(const ServerSocket::Received& received, const std::vector<std::string>& words) {
     const bool drives = !words.empty() && words.front() == kDriver;
     if (drives && !may_work(received.role))
-      return complain(received.peer, "wants to drive, and its key is not a worker's");
+      return complain(received.peer, "wants to drive, but its key is not a worker's");
     Peer& peer = peers_[received.peer];
     std::optional<TroubleMessage> left;
     if (peer.drives && !drives) {
-      left = TroubleMessage{peer.name + " drives no more: it said `hello " +
+      left = TroubleMessage{peer.name + " no longer drives: it sent `hello " +
                                 (words.empty() ? "" : words.front()) + "`",
                             false};
     }
@@ -316,7 +316,7 @@ class NodeLink {
     } else if (had) {
       told_.clear();
       tell("the connection to " + place_.name + "'s node at " + place_.endpoint +
-           " broke; it is tried again");
+           " was lost; trying again");
     }
   }
 
@@ -335,7 +335,7 @@ class NodeLink {
     }
     auto message = message_from_robot(frame_);
     if (!message) {
-      return tell(place_.name + " sent a message that is not a node's: `" + frame_.substr(0, 40) +
+      return tell(place_.name + " sent a message that nodes do not send: `" + frame_.substr(0, 40) +
                   "`");
     }
     message = arrived(*std::move(message));
@@ -447,7 +447,7 @@ std::optional<Error> check_places(const std::vector<RobotPlace>& places, bool ha
     if (!has_keys && !is_loopback(address->host)) {
       return Error{ErrorKind::BadInput,
                    place.endpoint +
-                       " is on another host: connections there need a key, else "
+                       " is on another host: such connections need a key, else "
                        "any host could drive the robots",
                    place.name};
     }

@@ -54,8 +54,7 @@ std::optional<std::string> too_big(const Robot& robot) {
   if (2 * reach_m < room_m) return std::nullopt;
   return fmt::format(
       "modules are assessed with robots that start {:.2g} m apart, so that they see each other, "
-      "and "
-      "the body of `{}` reaches {:.2g} m from its middle",
+      "but the body of `{}` reaches {:.2g} m from its middle",
       room_m, robot.name, reach_m);
 }
 

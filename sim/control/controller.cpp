@@ -84,7 +84,7 @@ Expected<Controller> parse_controller(std::string_view text, const Flavour& flav
   if (text.size() > kLongestController) {
     return unexpected(ErrorKind::BadInput,
                       "control software has at most " + std::to_string(kLongestController) +
-                          " characters, and this text has " + std::to_string(text.size()));
+                          " characters, but this text has " + std::to_string(text.size()));
   }
   const auto architecture = architecture_of_text(text);
   if (!architecture) {
@@ -133,7 +133,7 @@ std::optional<std::string> complaint_about_running(const Controller& controller,
     const ModuleSpec* spec = flavour.find(module);
     complaint = "the module " + (spec == nullptr ? "external" : spec->id) + " of the flavour " +
                 flavour.name +
-                " is external: this program can read it, and only a program of its own can run it";
+                " is external: this program can read it, but only your own program can run it";
   };
   std::visit(Overloaded{[&](const Machine& machine) {
                           for (const State& state : machine.states) {

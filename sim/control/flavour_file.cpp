@@ -110,7 +110,7 @@ class ConstantReader {
     if (!(0 <= pair->least && pair->least <= pair->most && pair->most <= 255)) {
       table->complain(key, "`" + std::string(key) + "` is from [" + number_text(pair->least) +
                                ", " + number_text(pair->most) +
-                               "]; the lower end comes first, and both are from 0 to 255");
+                               "]; write the lower end first, both from 0 to 255");
       return;
     }
     range = {static_cast<int>(std::lround(pair->least * kGrayThousandths)),
@@ -163,12 +163,12 @@ void read_range(TableReader& table, std::string_view key, ParameterSpec& paramet
   }
   if (range->least > range->most) {
     table.complain(key, "the range of " + parameter.name + " is [" + number_text(range->least) +
-                            ", " + number_text(range->most) + "]: its ends are exchanged");
+                            ", " + number_text(range->most) + "]: write the lower end first");
     return;
   }
   if (range->least == range->most) {
     table.complain(key, "the range of " + parameter.name +
-                            " has one value alone, and the search chooses among several");
+                            " has only one value, but the search needs several");
     return;
   }
   parameter.low = range->least;
@@ -188,7 +188,7 @@ void read_word(TableReader& table, std::string_view key, std::string& word) {
   if (is_word(*text)) {
     word = std::move(*text);
   } else {
-    table.complain(key, "`" + std::string(key) + "` is 1 to 20 letters, such as \"att\"");
+    table.complain(key, "`" + std::string(key) + "` must be 1 to 20 letters, such as \"att\"");
   }
 }
 
@@ -208,7 +208,7 @@ void read_parameter(TableReader& module, ParameterSpec& parameter) {
   const Node* node = module.take(parameter.name);
   if (node == nullptr) return;
   if (parameter.type == ParameterSpec::Type::Label) {
-    module.complain(parameter.name, "a label is any one of the flavour's; it has no range");
+    module.complain(parameter.name, "a label can be any label of the flavour; it has no range");
     return;
   }
   if (!std::holds_alternative<Table>(node->value)) {
@@ -233,12 +233,13 @@ void check_tokens(TableReader& table, const std::string& id, const ModuleSpec& s
   std::set<std::string> tokens;
   for (const ParameterSpec& parameter : spec.parameters) {
     if (std::ranges::count(kOwnSwitches, parameter.token) > 0) {
-      table.complain(id, "`" + id + "`: texts have --" + parameter.token +
-                             " for something else; give " + parameter.name + " another token");
+      table.complain(id, "`" + id + "`: --" + parameter.token +
+                             " has another meaning in texts; give " + parameter.name +
+                             " another token");
     }
     if (std::ranges::count(kOwnSymbols, parameter.symbol) > 0) {
-      table.complain(id, "`" + id + "`: the search has a parameter " + parameter.symbol +
-                             " of its own; give " + parameter.name + " another symbol");
+      table.complain(id, "`" + id + "`: the search already has a parameter " + parameter.symbol +
+                             "; give " + parameter.name + " another symbol");
     }
     if (!parameter.token.empty() && !tokens.insert(parameter.token).second) {
       table.complain(id, "`" + id + "` has the token `" + parameter.token + "` twice");
@@ -267,7 +268,7 @@ ParameterSpec read_external_parameter(TableReader& table) {
   }
   parameter.name = table.text("name").value_or("");
   if (table.has("name") && !is_id(parameter.name))
-    table.complain("name", "a parameter's name consists of small letters, digits and `_`");
+    table.complain("name", "a parameter's name must consist of small letters, digits and `_`");
   if (table.choice("type", kTypes) == kTypes[1]) {
     parameter.type = ParameterSpec::Type::Integer;
   } else {
@@ -314,10 +315,10 @@ std::optional<ModuleSpec> read_module(TableReader& tables, const std::string& id
   }
   const auto module = module_from_id(id);
   if (kind && !is_id(id))
-    tables.complain(id, "a module's name consists of small letters, digits and `_`");
+    tables.complain(id, "a module's name must consist of small letters, digits and `_`");
   if (kind && module) {
     tables.complain(id, "`" + id +
-                            "` is a kind that this program has: leave `kind` out, or give "
+                            "` is a kind of this program: leave out `kind`, or give "
                             "the external module another name");
   }
   if (!kind && (!module || is_behaviour(*module) != behaviour)) {
@@ -328,14 +329,15 @@ std::optional<ModuleSpec> read_module(TableReader& tables, const std::string& id
     tables.complain(id, "there is no kind of " +
                             std::string(behaviour ? "behaviour" : "condition") + " `" + id + "`" +
                             did_you_mean(id, known) + "; kinds are: " + joined(known) +
-                            "; one that only another program has is `" + id +
+                            "; for a module of another program write `" + id +
                             " = { kind = \"external\", ... }`");
     table->take_all();
     return std::nullopt;
   }
   ModuleSpec spec{.module = module.value_or(Module::Stop), .id = id, .number = 0, .parameters = {}};
   const auto number = table->integer("number", kNumbers);
-  if (!table->has("number")) table->complain("number", "`" + id + "` needs its `number` in texts");
+  if (!table->has("number"))
+    table->complain("number", "`" + id + "` needs a `number`, as in texts of machines");
   spec.number = static_cast<int>(number.value_or(0));
   if (kind) {
     read_external(*table, behaviour, spec);
@@ -394,20 +396,23 @@ void check_whole(TableReader& root, const Flavour& flavour) {
   for (const auto& [key, modules] : {std::pair("behaviours", &flavour.behaviours),
                                      std::pair("conditions", &flavour.conditions)}) {
     if (modules->empty()) {
-      root.complain(key, "a flavour needs a table [" + std::string(key) + "] with one at least");
+      root.complain(key,
+                    "a flavour needs a table [" + std::string(key) + "] with at least one entry");
     }
     check_symbols(root, key, *modules);
   }
   for (const ModuleSpec& condition : flavour.conditions) {
     if (std::ranges::count(flavour.behaviours, condition.id, &ModuleSpec::id) > 0)
-      root.complain("conditions", "`" + condition.id + "` is a behaviour, too");
+      root.complain("conditions", "`" + condition.id + "` is also a behaviour");
   }
   if (flavour.find(Module::ColorDetection) != nullptr && flavour.floor.labels.size() != 4) {
-    root.complain("floor", "color_detection looks for four labels, which [floor] must have");
+    root.complain("floor", "color_detection needs four labels in [floor]");
   }
   if (flavour.obstacles.near_m >= flavour.obstacles.far_m ||
       flavour.obstacles.neighbour_near_m >= flavour.obstacles.neighbour_far_m) {
-    root.complain("obstacles", "what is near must be nearer than what is far");
+    root.complain("obstacles",
+                  "`near_m` must be less than `far_m`, and `neighbour_near_m` than "
+                  "`neighbour_far_m`");
   }
 }
 
@@ -440,7 +445,7 @@ void read_fields(TableReader& table, Flavour& flavour) {
     table.complain(
         "conditions",
         "conditions of the floor need `black`, `gray` and `white` in a table [floor], or a "
-        "`base` that has them: without them no floor has a colour");
+        "`base` that has them");
   }
 }
 
@@ -538,8 +543,8 @@ FlavourOrErrors read_flavour_file(const std::filesystem::path& file) {
   if (!text) return tl::unexpected(std::vector<Error>{text.error()});
   auto flavour = parse_flavour(*text, file);
   if (flavour && takes_a_name_of_ours(*flavour)) {
-    const std::string why = "a flavour has its file's name, and `" + flavour->name +
-                            "` is built in with other values; give the file another name";
+    const std::string why = "a flavour gets its file's name, but `" + flavour->name +
+                            "` is built in with other values; rename the file";
     return tl::unexpected(std::vector<Error>{{ErrorKind::BadInput, why, file.string()}});
   }
   return flavour;
@@ -591,8 +596,8 @@ FlavourOrErrors parse_flavour(std::string_view text, const std::filesystem::path
   read_format(root);
   if (!is_name(flavour.name)) {
     root.complain("name",
-                  "a flavour has its file's name, so that the file's must consist of letters, "
-                  "digits, `_`, `-` and `.`; this is \"" +
+                  "a flavour gets its file's name, so this must consist of letters, digits, "
+                  "`_`, `-` and `.`; it is \"" +
                       flavour.name + "\"");
   }
   read_fields(root, flavour);

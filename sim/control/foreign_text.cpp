@@ -27,9 +27,9 @@ std::optional<std::string> complaint_about_name(std::string_view before) {
   }
   if (count == 0) return std::nullopt;
   if (count > kMost) names += ", ...";
-  return "options before the machine that are not known here: " + names +
-         "; the machine was made for a program that obeys them, and without them it would be "
-         "another one";
+  return "unknown options before the machine: " + names +
+         "; the machine was made for a program that uses them, and without them it would behave "
+         "differently";
 }
 
 std::optional<std::string> remark_about(std::string_view text) {

@@ -31,7 +31,7 @@ std::optional<Error> check_state(const Machine& machine, std::size_t index,
                    "the target " + std::to_string(transition.target) + " is not a state", place};
     }
     if (transition.target == static_cast<int>(index)) {
-      return Error{ErrorKind::BadInput, "a transition leads to another state", place};
+      return Error{ErrorKind::BadInput, "a transition must lead to another state", place};
     }
     if (auto complaint = complaint_about_module(module_of(transition.condition),
                                                 parameters_of(transition.condition), flavour)) {

@@ -196,19 +196,19 @@ std::optional<Error> check(const Network& network, const Flavour& flavour) {
   }
   for (const double weight : network.weights) {
     if (!std::isfinite(weight))
-      return Error{ErrorKind::BadInput, "a weight is a finite number", "--weights"};
+      return Error{ErrorKind::BadInput, "a weight must be a finite number", "--weights"};
   }
   if (network.inputs == NetworkInputs::Rm11 &&
       flavour.obstacles.reading != ObstacleModel::Reading::AsSensed) {
     return Error{ErrorKind::BadInput,
                  "the inputs rm1.1 are strengths of single sensors, which the flavour " +
-                     flavour.name + " has not: take chocolate-epuck, or other inputs",
+                     flavour.name + " does not have: use chocolate-epuck, or other inputs",
                  "--network"};
   }
   if (network.inputs == NetworkInputs::Rm12 && !senses_light(flavour)) {
     return Error{ErrorKind::BadInput,
                  "the inputs rm1.2 read light sensors, which the flavour " + flavour.name +
-                     " has not: take another flavour, or the inputs rvr or rvr-gray",
+                     " does not have: use another flavour, or the inputs rvr or rvr-gray",
                  "--network"};
   }
   return std::nullopt;
@@ -225,8 +225,8 @@ Expected<Network> parse_network(std::string_view text, const Flavour& flavour) {
   }
   constexpr std::size_t kList = 3;
   if (tokens.size() > kList + 2 && tokens[kList].text.ends_with(',')) {
-    return Unexpected(
-        error_at(tokens[kList + 1], "weights are one list, with commas and without spaces"));
+    return Unexpected(error_at(tokens[kList + 1],
+                               "write the weights as one list, with commas and without spaces"));
   }
   const auto fields = fields_of(tokens);
   if (!fields) return Unexpected(fields.error());
@@ -242,8 +242,8 @@ Expected<Network> parse_network(std::string_view text, const Flavour& flavour) {
   Network network;
   const auto set = network_inputs_from(inputs->value.text);
   if (!set) {
-    return Unexpected(error_at(inputs->value, "no inputs " + quoted(inputs->value.text) +
-                                                  "; there are rvr, rvr-gray, rm1.2 and rm1.1"));
+    return Unexpected(error_at(inputs->value, "unknown inputs " + quoted(inputs->value.text) +
+                                                  "; known are rvr, rvr-gray, rm1.2 and rm1.1"));
   }
   network.inputs = *set;
   std::string_view rest = weights->value.text;

@@ -49,10 +49,10 @@ Expected<SubtreeBlocks> blocks_of(const std::string& name, std::span<const Field
     if (field.transition >= children) {
       const std::string last = std::to_string(children - 1);
       return Unexpected(error_at(
-          field.name,
-          quoted(field.name.text) + (between.empty() ? ": the subtree has the children 0 to " + last
-                                                     : " is of a condition beyond the one that " +
-                                                           quoted("--nc" + name) + " announces")));
+          field.name, quoted(field.name.text) +
+                          (between.empty() ? ": the subtree has the children 0 to " + last
+                                           : " is of another condition, but " +
+                                                 quoted("--nc" + name) + " announces one")));
     }
     Block& block = field.transition < 0
                        ? blocks.own
@@ -117,8 +117,8 @@ Expected<Subtree> read_old_subtree(int index, std::span<const Field> fields, con
       fields, [&](const Field& field) { return field.name.text == "--nc" + name; });
   if (count != fields.end() && count->value.text != "1") {
     return Unexpected(error_at(count->value, "a subtree of " + std::string(count->value.text) +
-                                                 " conditions; trees with one a subtree are read, "
-                                                 "as Maple's"));
+                                                 " conditions; only trees with one per subtree can "
+                                                 "be read, as Maple's"));
   }
   auto blocks = blocks_of(name, fields, end, 1, "x");
   if (!blocks) return Unexpected(blocks.error());

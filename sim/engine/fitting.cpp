@@ -41,14 +41,14 @@ std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot) {
   const bool takes_strengths = flavour.obstacles.reading == ObstacleModel::Reading::AsSensed;
   if (takes_strengths != gives_strengths(robot)) {
     return "the flavour `" + flavour.name + "` takes " + noun_of(takes_strengths) +
-           " from proximity sensors, and the robot `" + robot.name + "` gives " +
+           " from proximity sensors, but the robot `" + robot.name + "` gives " +
            noun_of(!takes_strengths);
   }
   const bool sees_light = flavour.find(Module::Phototaxis) != nullptr ||
                           flavour.find(Module::AntiPhototaxis) != nullptr;
   if (sees_light && takes_strengths != kOfLightStrengths.acts_on(robot)) {
     return "the flavour `" + flavour.name + "` takes " + (takes_strengths ? "strengths" : "lux") +
-           " from light sensors, and the robot `" + robot.name + "` gives " +
+           " from light sensors, but the robot `" + robot.name + "` gives " +
            (takes_strengths ? "lux" : "strengths");
   }
   const std::span<const std::string_view> models = models_of(robot);
@@ -57,7 +57,7 @@ std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot) {
   for (const std::string_view model : models)
     known += (known.empty() ? "" : " and ") + std::string(model);
   return "the flavour `" + flavour.name + "` needs the reference model " + flavour.reference +
-         ", and the robot `" + robot.name + "` is simulated with " + known;
+         ", but the robot `" + robot.name + "` is simulated with " + known;
 }
 
 std::optional<std::string> misfit(const Profile& profile, const Robot& robot) {
@@ -70,8 +70,8 @@ std::optional<std::string> misfit(const Profile& profile, const Robot& robot) {
     const std::string key = field.device + "." + field.key;
     if (!field.differs && std::ranges::count(profile.ranges, key, &FieldRange::field) == 0)
       continue;
-    return "the profile `" + profile.name + "` is not one of the robot `" + robot.name + "`: `" +
-           key + "` is of robots " + std::string(field.robots);
+    return "the profile `" + profile.name + "` does not fit the robot `" + robot.name + "`: `" +
+           key + "` is only for robots " + std::string(field.robots);
   }
   return std::nullopt;
 }
@@ -84,7 +84,7 @@ std::optional<std::string> misfit(NetworkInputs inputs, const Robot& robot) {
   if (rays == kProximitySensors && lights == kProximitySensors && gives_light) return std::nullopt;
   const std::string each = std::to_string(kProximitySensors);
   return "a network with the inputs rm1.1 reads the strengths of " + each + " proximity and " +
-         each + " light sensors, and the robot `" + robot.name + "` has " +
+         each + " light sensors, but the robot `" + robot.name + "` has " +
          (gives_light ? std::to_string(rays) + " and " + std::to_string(lights)
                       : "light sensors that give lux");
 }

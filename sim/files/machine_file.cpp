@@ -142,7 +142,7 @@ class Reader {
 
   tl::expected<std::vector<FiledMachine>, std::vector<Error>> finish() {
     if (machines_.empty() && errors_.empty()) {
-      errors_.push_back({ErrorKind::BadInput, "the file holds no machine", file_});
+      errors_.push_back({ErrorKind::BadInput, "the file contains no machine", file_});
     }
     if (!errors_.empty()) return tl::unexpected(counted());
     return std::move(machines_);
@@ -168,7 +168,7 @@ class Reader {
     for (const auto& [message, place] : repeated_) {
       const auto& [index, more] = place;
       if (more == 0) continue;
-      errors_[index].message += "; the same with " + swarmsmith::counted(more, "more line");
+      errors_[index].message += "; the same in " + swarmsmith::counted(more, "more line");
     }
     return std::move(errors_);
   }

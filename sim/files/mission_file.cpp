@@ -46,7 +46,7 @@ MissionEntry empty_mission(const std::string& name) {
 std::optional<MissionEntry> read_preset_file(TableReader& table, const std::string& preset,
                                              const ReadingPlace& place) {
   if (!place.takes_files) {
-    table.complain("preset", "a mission in a file of its own begins with a built-in one: " +
+    table.complain("preset", "a mission in its own file begins with a built-in one: " +
                                  joined(mission_names()));
     return std::nullopt;
   }
@@ -69,7 +69,7 @@ std::optional<MissionEntry> read_base(TableReader& table, const std::string& nam
         "name",
         "mission \"" + name + "\" is not built in" + did_you_mean(name, mission_names()) +
             ", so it needs a `preset` or a `score`; built in are: " + joined(mission_names()) +
-            (names_a_file(name) ? "; a file is named by `preset`" : ""));
+            (names_a_file(name) ? "; give a file as `preset`" : ""));
     return empty_mission(name);
   }
   const std::string preset = given.value_or(name);
@@ -90,7 +90,7 @@ void read_robot(TableReader& table, const ReadingPlace& place, Mission& mission)
   if (const auto* word = std::get_if<std::string>(&node->value)) {
     if (names_a_file(*word) && from == nullptr) {
       table.complain("robot",
-                     "a file's name cannot stand here; robots are " + joined(robot_names()));
+                     "a file's name is not allowed here; robots are " + joined(robot_names()));
       return;
     }
     auto robot = find_robot(*word, from == nullptr ? "" : *from);
@@ -177,8 +177,8 @@ std::string default_name(TableReader& table) {
 /// Whether a mission without `name` can take the name of its file. Complains if it cannot.
 bool check_file_name(TableReader& table, const std::string& name) {
   if (table.has("name") || name.empty() || is_name(name)) return true;
-  table.complain("name", "the mission takes its file's name, and \"" + name +
-                             "\" cannot be one: a name consists of letters, digits, `_`, `-` and "
+  table.complain("name", "the mission gets its file's name, but \"" + name +
+                             "\" is not a name: a name consists of letters, digits, `_`, `-` and "
                              "`.`; give it a `name`");
   return false;
 }

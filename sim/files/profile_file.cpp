@@ -53,8 +53,8 @@ ProfileOrErrors read_profile_file(const std::filesystem::path& file) {
   if (!text) return tl::unexpected(std::vector<Error>{text.error()});
   auto profile = parse_profile(*text, file);
   if (profile && takes_a_name_of_ours(*profile)) {
-    const std::string why = "a profile has its file's name, and `" + profile->name +
-                            "` is built in with other values; give the file another name";
+    const std::string why = "a profile gets its file's name, but `" + profile->name +
+                            "` is built in with other values; rename the file";
     return tl::unexpected(std::vector<Error>{{ErrorKind::BadInput, why, file.string()}});
   }
   return profile;
@@ -100,8 +100,8 @@ ProfileOrErrors parse_profile(std::string_view text, const std::filesystem::path
   read_format(root);
   if (!is_name(profile.name)) {
     root.complain("name",
-                  "a profile has its file's name, so that the file's must consist of letters, "
-                  "digits, `_`, `-` and `.`; this is \"" +
+                  "a profile gets its file's name, so this must consist of letters, digits, "
+                  "`_`, `-` and `.`; it is \"" +
                       profile.name + "\"");
   }
   read_fields(root, profile);

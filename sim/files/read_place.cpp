@@ -20,7 +20,7 @@ double read_heading(TableReader& table) {
   // The program writes radians, because degrees would not read back to the same bits.
   const auto theta = table.number("theta", {-1000, 1000});
   if (angle_deg && theta) {
-    table.complain("theta", "`angle` (degrees) and `theta` (radians) say the same; give one");
+    table.complain("theta", "`angle` (degrees) and `theta` (radians) mean the same; give only one");
   }
   if (theta) return wrap_angle(*theta);
   return angle_deg ? wrap_angle(*angle_deg * (kPi / 180)) : 0;

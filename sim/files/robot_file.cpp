@@ -74,24 +74,24 @@ void check_measures(TableReader& table, const Robot& robot) {
   if (inertia != 0 && (inertia < plate / kMostTimes || inertia > plate * kMostTimes)) {
     complain_of_key(table, "body", "inertia",
                     "`inertia` is " + number_text(inertia) +
-                        " kg m2, and a plate of this outline and mass has " + number_text(plate) +
-                        "; give one from a thousandth of that to a thousand times that, or 0 for "
+                        " kg m2, but a plate of this outline and mass has " + number_text(plate) +
+                        "; give a value from a thousandth to a thousand times of that, or 0 for "
                         "the plate's");
   }
   const auto check_place = [&](std::string_view device, std::string_view key, double out_m) {
     if (out_m <= std::max(kNear_m, kMostRadii * measures.radius_m)) return;
     complain_of_key(table, device, key,
                     "`" + std::string(key) + "` is " + number_text(out_m) +
-                        " m from the centre, and the body ends " + number_text(measures.radius_m) +
-                        " m from it; at most 0.5 m, or three times as far, is taken");
+                        " m from the centre, but the body ends " + number_text(measures.radius_m) +
+                        " m from it; at most 0.5 m, or three times the body's radius, is allowed");
   };
   check_place("proximity", "start", robot.proximity.start_m);
   check_place("light", "out", robot.light.out_m);
   const NeighbourSensor& sensor = robot.neighbours;
   if (sensor.range_m > 0 && sensor.less_m > 0 && sensor.less_m >= sensor.range_m) {
     complain_of_key(table, "neighbours", "less",
-                    "no distance would be above 0: `less` is " + number_text(sensor.less_m) +
-                        " m, and `range` " + number_text(sensor.range_m) +
+                    "all distances would be 0: `less` is " + number_text(sensor.less_m) +
+                        " m, but `range` is " + number_text(sensor.range_m) +
                         " m; give a smaller `less`");
   }
 }
@@ -104,12 +104,12 @@ void check_robot(TableReader& table, const Robot& robot) {
   if (!ring.labels_deg.empty() && ring.labels_deg.size() != ring.rays_deg.size()) {
     table.complain("proximity", "the ring has " + counted(ring.rays_deg.size(), "ray") + " and " +
                                     counted(ring.labels_deg.size(), "label") +
-                                    "; give a label to each ray, or none");
+                                    "; give each ray a label, or give no labels");
   }
   const double inradius_m = inradius_of(robot.body.outline);
   if (ring.start_m > 0 && ring.start_m < inradius_m) {
     table.complain("proximity", "rays would start inside of the body, " + number(ring.start_m) +
-                                    " m from the centre: let them start at " + number(inradius_m) +
+                                    " m from the centre; let them start at " + number(inradius_m) +
                                     " m or farther, or at 0 for the body's edge");
   }
   if (ring.reading == ProximityRing::Reading::Strength && ring.reach_m == 0) {
@@ -127,7 +127,7 @@ void check_robot(TableReader& table, const Robot& robot) {
                                    std::to_string(ground.vote_majority));
     }
     if (ground.black_below > ground.white_above) {
-      table.complain("ground", "`black_below` is above `white_above`: exchange them");
+      table.complain("ground", "`black_below` is above `white_above`; swap them");
     }
   } else if (ground.places.size() > 1) {
     table.complain("ground", "with reading = \"color\" there is one point, these are " +
@@ -156,8 +156,8 @@ void read_base(TableReader& table, const std::filesystem::path* folder, int dept
     if (names_a_file(*base) && folder == nullptr) {
       table.complain("base", "a robot begins with a built-in one here: " + joined(robot_names()));
     } else if (depth >= kMostBases) {
-      table.complain("base", "bases of bases go more than " + std::to_string(kMostBases) +
-                                 " files deep, or form a circle");
+      table.complain("base", "a chain of bases has more than " + std::to_string(kMostBases) +
+                                 " files, or is a circle");
     } else if (auto found = robot_of_word(*base, folder == nullptr ? "" : *folder, depth + 1)) {
       robot = std::move(*found);
     } else {
@@ -180,8 +180,9 @@ void settle_idle_fields(TableReader& table, const Robot& base, Robot& robot) {
   for (const IdleField& field : settle(base)) {
     if (!field.differs) continue;
     table.table(field.device)
-        ->complain(field.key, "`" + field.key + "` is of robots " + std::string(field.robots) +
-                                  ", and does nothing here; leave it out");
+        ->complain(field.key, "`" + field.key + "` is only for robots " +
+                                  std::string(field.robots) +
+                                  " and does nothing here; leave it out");
   }
   settle(Robot{});
 }
@@ -209,11 +210,10 @@ RobotOrErrors robot_of_text(std::string_view text, const std::filesystem::path& 
   read_base(root, &folder, depth, robot);
   robot.name = file.stem().string();
   if (!is_name(robot.name)) {
-    root.complain(
-        "name",
-        "a robot has its file's name, so that the file's must consist of letters, digits, "
-        "`_`, `-` and `.`; this is \"" +
-            robot.name + "\"");
+    root.complain("name",
+                  "a robot gets its file's name, so this must consist of letters, digits, "
+                  "`_`, `-` and `.`; it is \"" +
+                      robot.name + "\"");
   }
   read_devices(root, robot);
   root.finish();
@@ -235,8 +235,8 @@ RobotOrErrors robot_of_word(const std::string& word, const std::filesystem::path
   if (!text) return tl::unexpected(std::vector<Error>{text.error()});
   auto robot = robot_of_text(*text, folder / word, depth);
   if (robot && !built_in_robot_text(robot->name).empty() && *robot != built_in_robot(robot->name)) {
-    const std::string why = "a robot has its file's name, and `" + robot->name +
-                            "` is built in with other values; give the file another name";
+    const std::string why = "a robot gets its file's name, but `" + robot->name +
+                            "` is built in with other values; rename the file";
     return tl::unexpected(std::vector<Error>{{ErrorKind::BadInput, why, (folder / word).string()}});
   }
   return robot;

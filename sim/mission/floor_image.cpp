@@ -61,7 +61,7 @@ Expected<std::shared_ptr<const Picture>> Picture::from_png(std::string bytes,
                                                            std::int64_t most_in_use) {
   if (bytes.size() > kMostBytes) {
     return bad_input("the image has " + std::to_string(bytes.size()) +
-                     " bytes; at most 1 MB is taken: make it smaller, or use fewer colours");
+                     " bytes; at most 1 MB is allowed: make it smaller, or use fewer colours");
   }
   if (auto known = known_pictures().find(bytes)) return known;
   PngImage image;
@@ -72,7 +72,7 @@ Expected<std::shared_ptr<const Picture>> Picture::from_png(std::string bytes,
   if (pixels > kMostPixels) {
     return bad_input("the image has " + std::to_string(image.width) + " x " +
                      std::to_string(image.height) +
-                     " pixels; at most 16 million are taken: make it smaller");
+                     " pixels; at most 16 million are allowed: make it smaller");
   }
   if (pixels + known_pictures().pixels() > most_in_use) {
     return bad_input("the pictures of all floors have more than " +

@@ -57,7 +57,7 @@ Expected<std::vector<Pose>> given_starts(const Mission& mission, Ground ground) 
   const std::vector<Pose>& poses = std::get<PlaceAt>(mission.placement).poses;
   if (poses.size() != static_cast<std::size_t>(mission.robots)) {
     return bad_input("there are poses for " + counted(poses.size(), "robot") +
-                         ", and the mission has " + std::to_string(mission.robots),
+                         ", but the mission has " + std::to_string(mission.robots),
                      mission.name);
   }
   for (std::size_t i = 0; i < poses.size(); ++i) {

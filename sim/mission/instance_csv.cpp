@@ -31,7 +31,7 @@ struct Row {
   std::size_t line = 0;
 
   Unexpected wrong(std::size_t column, std::string_view wanted) const {
-    return bad_input("column " + std::string(columns[column]) + " wants " + std::string(wanted) +
+    return bad_input("column " + std::string(columns[column]) + " must be " + std::string(wanted) +
                          ", not `" + cells[column] + "`",
                      std::to_string(line));
   }
@@ -76,11 +76,11 @@ Expected<std::vector<std::size_t>> places_of(std::span<const std::string_view> c
       std::string wanted;
       for (const std::string_view one : columns)
         wanted.append(wanted.empty() ? "" : ", ").append(one);
-      return bad_input("there is no column `" + std::string(column) + "`; wanted are: " + wanted,
+      return bad_input("there is no column `" + std::string(column) + "`; needed are: " + wanted,
                        "1");
     }
     if (std::find(found + 1, header.end(), column) != header.end())
-      return bad_input("the column `" + std::string(column) + "` is there twice", "1");
+      return bad_input("the column `" + std::string(column) + "` appears twice", "1");
     places.push_back(static_cast<std::size_t>(found - header.begin()));
   }
   return places;

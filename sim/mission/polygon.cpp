@@ -127,7 +127,7 @@ std::optional<std::string> flaw_of(std::span<const Point> corners) {
              point_text(corners[j]);
     }
   }
-  if (std::fabs(signed_area(corners)) < kSmallestArea_m2) return "there is no area within";
+  if (std::fabs(signed_area(corners)) < kSmallestArea_m2) return "it has no area";
   return std::nullopt;
 }
 

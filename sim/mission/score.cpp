@@ -38,7 +38,7 @@ class FaultFinder {
   std::optional<Error> fault;
 
   void operator()(const ScoreField& field, double value) {
-    if (!field.allows(value)) complain(field, "is out of its limits");
+    if (!field.allows(value)) complain(field, "is outside of its limits");
   }
   void operator()(const ScoreField& field, int value) {
     (*this)(field, static_cast<double>(value));
@@ -50,10 +50,10 @@ class FaultFinder {
     if (field.choices.empty() || std::ranges::find(field.choices, value) != field.choices.end()) {
       return;
     }
-    complain(field, "is none of its choices");
+    complain(field, "is not one of its choices");
   }
   void operator()(const ScoreField& field, const std::vector<Reward>& rewards) {
-    if (rewards.empty()) complain(field, "names no colour");
+    if (rewards.empty()) complain(field, "must name a colour");
     for (std::size_t i = 0; i < rewards.size(); ++i) {
       (*this)(field, rewards[i].reward);
       for (std::size_t j = 0; j < i; ++j) {

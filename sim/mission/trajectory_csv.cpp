@@ -47,7 +47,7 @@ Expected<Number> number_of(std::string_view cell, std::size_t column, std::size_
   if constexpr (std::is_floating_point_v<Number>) good = good && std::isfinite(value);
   if (good) return value;
   const char* const wanted = std::is_floating_point_v<Number> ? "a finite number" : "an integer";
-  return bad_input("column " + std::string(kRead[column]) + " wants " + wanted + ", not `" +
+  return bad_input("column " + std::string(kRead[column]) + " must be " + wanted + ", not `" +
                        std::string(cell) + "`",
                    line_place(line));
 }
@@ -66,9 +66,10 @@ class Collector {
     }
     if (cycle != cycle_ || robot != robot_ || (robots_ > 0 && robot >= robots_)) {
       return bad_input("expected robot " + std::to_string(robot_) + " of cycle " +
-                           std::to_string(cycle_) + " (rows go cycle by cycle from 0 or 1, robot " +
-                           "by robot from 0), found robot " + std::to_string(robot) + " of cycle " +
-                           std::to_string(cycle),
+                           std::to_string(cycle_) +
+                           " (rows are in the order of cycles, from 0 or 1, and of robots, "
+                           "from 0), found robot " +
+                           std::to_string(robot) + " of cycle " + std::to_string(cycle),
                        line_place(line));
     }
     (cycle == 0 ? result_.starts : result_.trajectory.poses).push_back(pose);

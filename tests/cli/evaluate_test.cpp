@@ -203,7 +203,7 @@ TEST(Evaluate, TakesAFlavourFromAFile) {
   EXPECT_THAT(external.err, HasSubstr("the module wave of the flavour mine is external"));
   const Ran robot = evaluate("--nstates 1 --s0 1", "chocolate-epuck");
   EXPECT_EQ(robot.code, 2);
-  EXPECT_THAT(robot.err, HasSubstr("takes strengths from proximity sensors, and the robot `rvr` "
+  EXPECT_THAT(robot.err, HasSubstr("takes strengths from proximity sensors, but the robot `rvr` "
                                    "gives distances; give another --flavour, or a --mission of "
                                    "another robot\n"));
   write_file(folder / "mine.toml", "format = 1\nbase = \"watermelon\"\nstates = 20\n");

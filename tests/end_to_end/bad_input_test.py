@@ -98,7 +98,7 @@ class CampaignFile(BadInput):
             ('[arena]\nshape = "polygon"\nwalls = [[0, 0, 1, 0], [1, 0, 0, 1], [0, 1, 0, 0.5]]\n',
              "mine.toml:5:9: the walls are not closed: wall 3 ends at (0, 0.5)"),
             ('[arena]\nshape = "polygon"\ncorners = [[0, 0], [2, 2], [2, 0], [0, 2]]\n',
-             "mine.toml:5:11: these walls make no arena: side 1"),
+             "mine.toml:5:11: these walls do not make an arena: side 1"),
             ('[arena]\nshape = "square"\nside = nan\n', "mine.toml:5:8: `side` must be from"),
             ('[arena]\nshape = "square"\nside = -3\n', "mine.toml:5:8: `side` must be from"),
             ('robots = 90\n', "mine.toml:3:10: mission \"mine\": arena too small for 90 robots"),
@@ -574,10 +574,10 @@ class Evaluate(BadInput):
     def test_tables_that_are_wrong(self):
         good = ["1,0,0,0,0", "1,1,0.5,0,0", "1,2,0,0.5,0"]
         cases = [(good, "the starts have no row for seed 2"),
-                 (["1,0,abc,0,0"], 'starts.csv:2: column x wants a number, not `abc`'),
-                 (["1,0,nan,0,0"], 'starts.csv:2: column x wants a finite number, not `nan`'),
+                 (["1,0,abc,0,0"], 'starts.csv:2: column x must be a number, not `abc`'),
+                 (["1,0,nan,0,0"], 'starts.csv:2: column x must be a finite number, not `nan`'),
                  (["1,0,0"], "starts.csv:2: expected 5 cells as in the header, found 3"),
-                 (["1,3,0,0,0"], "starts.csv:2: column robot wants robot 0 of this seed"),
+                 (["1,3,0,0,0"], "starts.csv:2: column robot must be robot 0 of this seed"),
                  (["1,0,9,9,0"] + good[1:], "seed 1: robot 0 is outside the arena")]
         for lines, sentence in cases:
             with self.subTest(sentence):
@@ -589,7 +589,7 @@ class Evaluate(BadInput):
         self.refused("starts.csv:1: there is no column `seed`", *EXPLORE, "--mission",
                      "aggregation", "--starts", table)
         for line, sentence in (("1,5,5,red", "there is no free place for a patch at (5"),
-                               ("1,5,5,rd", "column color wants the name of a colour, or #rrggbb, not `rd`")):
+                               ("1,5,5,rd", "column color must be the name of a colour, or #rrggbb, not `rd`")):
             table.write_text("seed,x,y,color\n" + line + "\n")
             self.refused(sentence, *EXPLORE, "--mission", "color_selection", "--patches", table)
         table.write_text("seed,x,y,color\n1,0.75,0.25,red\n")

@@ -73,7 +73,7 @@ class OwnRobot(ProgramTest):
                 ("diameter       = 0.342", "diameter       = -0.342", "turtlebot4.toml:"),
                 ("rays   = [65.3,", "rays   = [65.3, 1, 2,", "`rays`"),
                 ("diameter       = 0.342", "diameter       = 0.342\ninertia = 1e-30", "`inertia` is 1e-30 kg m2"),
-                ("range  = 2.0", "range  = 2.0\nless = 3", "no distance would be above 0"),
+                ("range  = 2.0", "range  = 2.0\nless = 3", "all distances would be 0"),
                 ("out    = 0.17", "out    = 0.6", "`out` is 0.6 m from the centre"),
                 ("[ground]", "[grond]", 'did you mean "ground"'),
                 ("track     = 0.233", "track     = 0", "`track`")):

@@ -131,19 +131,19 @@ class Drivers:
     def test_silent(self):
         treads, start = self.begin()
         treads.signal(signal.SIGSTOP)
-        self.assert_invalid(start, time.monotonic(), "does not say what the treads do")
+        self.assert_invalid(start, time.monotonic(), "does not report what the treads do")
 
     def test_dead(self):
         treads, start = self.begin()
         treads.kill()
-        self.assert_invalid(start, time.monotonic(), "is gone: no driver listens to the speeds|does not say what the treads do")
+        self.assert_invalid(start, time.monotonic(), "has disconnected: no driver listens to the speeds|does not report what the treads do")
 
     def test_replaced(self):
         treads, start = self.begin()
         treads.kill()
         fault_at = time.monotonic()
         self.driver("treads")
-        self.assert_invalid(start, fault_at, "drives the treads in place of|is gone: no driver listens|does not say what the treads do")
+        self.assert_invalid(start, fault_at, "drives the treads in place of|has disconnected: no driver listens|does not report what the treads do")
 
     def test_a_driver_that_obeys_is_valid(self):
         self.obeys()
@@ -171,7 +171,7 @@ class Drivers:
     def other_speeds(self, fault):
         treads, start = self.begin()
         self.spoil(treads, fault)
-        self.assert_invalid(start, treads, "it obeys another one")
+        self.assert_invalid(start, treads, "it follows other commands")
 
     def test_contradicted(self):
         self.other_speeds("foreign")
@@ -185,24 +185,24 @@ class Drivers:
     def test_one_that_says_what_was_never_commanded(self):
         treads, start = self.begin()
         fault_at = self.spoil(treads, "invented")
-        self.assert_invalid(start, fault_at, "it obeys another one")
+        self.assert_invalid(start, fault_at, "it follows other commands")
 
     def test_stuck(self):
         """It does what is commanded half of the time, by chance."""
         treads, start = self.begin()
         fault_at = self.spoil(treads, "stuck")
-        self.assert_invalid(start, fault_at, r"s behind|does not do \S+ and \S+ m/s, which was commanded \d+ times", within=8)
+        self.assert_invalid(start, fault_at, r"s behind|ignored the command \S+ and \S+ m/s, which was given \d+ times", within=8)
 
     def test_one_that_hears_no_speeds(self):
         """Its treads stand."""
         treads, start = self.begin()
         self.spoil(treads, "deaf")
-        self.assert_invalid(start, None, "holds them")
+        self.assert_invalid(start, None, "stopped them")
 
     def test_one_that_stutters(self):
         treads, start = self.begin()
         self.spoil(treads, "stutters")
-        self.assert_invalid(start, None, "does not say what the treads do|s behind")
+        self.assert_invalid(start, None, "does not report what the treads do|s behind")
 
     def test_one_that_is_late_by_no_more_than_is_allowed(self):
         treads, start = self.begin(seconds=8)
@@ -213,19 +213,19 @@ class Drivers:
         treads, start = self.begin()
         self.driver("second", "/elsewhere/second")
         fault_at = time.monotonic()
-        self.assert_invalid(start, fault_at, "drives the treads, too, beside")
+        self.assert_invalid(start, fault_at, "also drives the treads, besides")
         self.assert_treads_stand(treads, fault_at)
 
     def test_one_that_does_not_say_what_the_treads_do(self):
         _, start = self.begin(seconds=2, role="quiet")
         self.assertEqual(start.end(), 0, start.said())
-        self.assertIn("driver: no driver says what the treads do", start.said())
+        self.assertIn("driver: no driver reports what the treads do", start.said())
         self.assertIn("r1: DEGRADED", start.said())
 
     def test_one_that_does_not_say_what_the_treads_do_and_hangs(self):
         treads, start = self.begin(role="quiet")
         treads.signal(signal.SIGSTOP)
-        self.assert_invalid(start, time.monotonic(), "gives no sign of life", within=1.5)
+        self.assert_invalid(start, time.monotonic(), "does not respond", within=1.5)
 
 
 @robots.by_the_clock
@@ -250,8 +250,8 @@ class OverZeroMq(Drivers, ProgramTest):
     def test_one_that_says_that_it_is_an_operator(self):
         treads, start = self.begin()
         fault_at = self.spoil(treads, "operator")
-        self.assert_invalid(start, fault_at, "is gone|does not say what the treads do|it holds them")
-        self.assertIn("drives no more: it said `hello operator`", self.node.said())
+        self.assert_invalid(start, fault_at, "has disconnected|does not report what the treads do|it stopped them")
+        self.assertIn("no longer drives: it sent `hello operator`", self.node.said())
 
 
 @unittest.skipIf(NO_ROS, NO_ROS or "")
@@ -266,10 +266,10 @@ class OverRos(Drivers, ProgramTest):
         treads, start = self.begin()
         joystick = self.driver("joystick", "/elsewhere/joystick")
         fault_at = time.monotonic()
-        self.assert_invalid(start, fault_at, "/elsewhere/joystick commands the treads, too")
+        self.assert_invalid(start, fault_at, "/elsewhere/joystick also commands the treads")
         self.assert_treads_stand(treads, fault_at)
         joystick.kill()
-        self.node.wait_for("/elsewhere/joystick publishes /rvr1/wheels, too|commands the treads, too|$")
+        self.node.wait_for("/elsewhere/joystick also publishes /rvr1/wheels|also commands the treads|$")
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ class Faults(ProgramTest):
         nodes[1].signal(signal.SIGKILL)
         self.assertEqual(world.end(), 5, world.said())
         self.assertRegex(world.said(), r"rvr2: no answer from rvr2 in cycle \d+ of seed \d+ within "
-                                       rf"{SILENCE_S} s; its node is gone")
+                                       rf"{SILENCE_S} s; its node has disconnected")
 
     def assert_killed_world_is_told(self, way):
         nodes = way.nodes(self, 3, self.machine, *LOCK_STEP, "--patience", SILENCE_S)
@@ -41,7 +41,7 @@ class Faults(ProgramTest):
         world.signal(signal.SIGKILL)
         for node in nodes:
             self.assertEqual(node.end(), 5, node.said())
-            self.assertIn("the world is silent", node.said())
+            self.assertIn("no message from the world", node.said())
 
     def assert_stopped_node_is_named(self, way):
         nodes = way.nodes(self, 3, self.machine, *LOCK_STEP)
@@ -103,7 +103,7 @@ class OverRos(Faults):
     def test_a_host_name_that_does_not_resolve_is_said_on_both_sides(self):
         self.master.variables["ROS_HOSTNAME"] = "nosuch-robot.invalid"
         node = self.master.node(self, 1, self.machine, *LOCK_STEP)
-        node.wait_for("other nodes look for this one at `nosuch-robot.invalid`, which does not even resolve here; set ROS_IP")
+        node.wait_for("other nodes get for this one the address `nosuch-robot.invalid`, which does not resolve on this host; set ROS_IP")
         self.master.variables["ROS_HOSTNAME"] = "localhost"
         world = self.master.program(self, "world", "--mission", "aggregation", "--lock-step")
         world.wait_for("/rvr1/control .* `nosuch-robot.invalid` does not resolve here; set ROS_IP")
@@ -187,9 +187,9 @@ class OverZeroMq(Faults):
         self.assertIn("another program listens on this port", second.said())
 
     def test_words_of_the_other_transport_are_refused(self):
-        for words, said in (((), "does not say where rvr1's node is"), (("--at", "x"), "write NAME=tcp://HOST:PORT"),
+        for words, said in (((), "the address of rvr1's node is missing"), (("--at", "x"), "write NAME=tcp://HOST:PORT"),
                             (tuple(word for i in (1, 2, 3) for word in ("--at", f"rvr{i}=tcp://10.0.0.1:5570")), "need a key"),
-                            (("--at", "rvr9=tcp://127.0.0.1:5570"), "does not say where rvr1's node is")):
+                            (("--at", "rvr9=tcp://127.0.0.1:5570"), "the address of rvr1's node is missing")):
             with self.subTest(words=words):
                 world = robots.Process(self, [robots.ROBOT, "world", "--mission", "aggregation", "--lock-step",
                                               "--robots", "1-3", "--transport", "zeromq", *words])

@@ -101,7 +101,7 @@ class OverRos(LockStep):
                                "--lock-step", "--compare", "--machine", machine, "--flavour", "watermelon", "--json")
         self.assertEqual(world.end(), 1, world.said())
         self.assertFalse(world.rows()[0]["same_in_process"])
-        self.assertIn("each its own random stream", world.said())
+        self.assertIn("each have its own random stream", world.said())
         for node in nodes:
             node.end()
 

@@ -116,7 +116,7 @@ class RealTime(ProgramTest):
         run.wait_for("all robots are running")
         self.nodes["rvr2"].signal(signal.SIGKILL)
         self.assertEqual(run.end(), 6, run.said())
-        self.assertIn("rvr2: is silent for 1 s", self.answer(run)["complaints"])
+        self.assertIn("rvr2: has sent nothing for 1 s", self.answer(run)["complaints"])
         self.assertEqual(self.answer(run)["verdicts"], {"rvr1": "INVALID", "rvr2": "unknown", "rvr3": "INVALID"})
         self.assertRegex((self.folder / "run07.toml").read_text(),
                          r'name = "rvr2"\nverdict = "INVALID"\nreasons = \["it did not answer after the run"\]')
@@ -197,7 +197,7 @@ class OverZeroMq(RealTime):
             return all(state and state["state"] == "failed" and not state["log_open"] for state in states) and states
         gone_at = time.monotonic()
         for state in robots.wait_for(all_failed, "the end of all nodes' runs"):
-            self.assertRegex(state["reasons"][0], r"the operator is silent for 1\.")
+            self.assertRegex(state["reasons"][0], r"no message from the operator for 1\.")
         for robot in ("rvr1", "rvr2", "rvr3"):
             moves = [float(row["clock_s"]) for row in self.rows(robot) if speed(row) > 0]
             print(f"{robot} is commanded to stand {moves[-1] + 0.1 - gone_at:.2f} s after the operator is gone")
@@ -240,7 +240,7 @@ class OverZeroMq(RealTime):
         self.assertEqual(run.end(), 6, run.said())
         first = self.answer(run)["robots"][0]["state"]
         self.assertEqual(first["state"], "failed", run.said())
-        self.assertRegex(first["reasons"][0], "the log is not whole: .*large")
+        self.assertRegex(first["reasons"][0], "the log is incomplete: .*large")
         self.assertGreaterEqual(first["cycle"], 45, "the robot went on")
         self.assertIn('state = "ended"', self.end_of("rvr2"))
         self.assert_replays()

@@ -179,7 +179,7 @@ class Pictures(Laboratory):
         cells = cells_of_tag(pictures, 100)
         write_picture(pictures / "same.png", cells, self.places)
         self.refused(1, ["calibrate", "arena", pictures / "same.png", "--arena", self.arena],
-                     "tag 100 is in the picture 12 times: each floor tag has a number of its own")
+                     "tag 100 is in the picture 12 times, but each floor tag needs its own number")
         seen = json.loads(track("detect", pictures / "same.png", "--json").stdout)
         self.assertEqual([(tag["tag"], tag["twice"]) for tag in seen["tags"]], [(100, 1)])
 
@@ -207,7 +207,7 @@ class Cameras(Laboratory):
     def test_another_board_is_not_there(self):
         self.refused(1, self.calibrate(self.root / "ceiling.board",
                                        board="charuco:9x6:0.04:0.03:6x6_250"),
-                     "the board is in 0 of 22 pictures", "E_CALIB_QUALITY: 0 views")
+                     "the board is in 0 of 22 pictures", "E_CALIB_QUALITY: only 0 views")
 
     def test_a_wrong_square_shows_nowhere_but_a_wrong_shape_does(self):
         # Squares of another size only scale the world before the camera: f stays the same.
@@ -272,7 +272,7 @@ class Arenas(Laboratory):
 
     def test_without_a_lens_or_a_place(self):
         (self.copy / "ceiling.place.toml").unlink()
-        self.refused(2, self.AGAIN, "E_CONFIG", "--again needs an earlier place")
+        self.refused(2, self.AGAIN, "E_CONFIG", "--again needs an earlier calibration")
         (self.copy / "ceiling.camera.toml").unlink()
         self.refused(2, self.calibrate(), "E_CONFIG", "not calibrated yet")
         self.refused(2, ["calibrate", "arena", "--arena", "arena.toml"], "--again")

@@ -153,12 +153,12 @@ class Release(unittest.TestCase):
         self.assertEqual((self.folder / "build-steps").read_text().split(), ["build", "package", "bundle"])
 
     def test_refuses_with_a_reason_and_leaves_all_as_it_was(self):
-        for version, said in (("0.1.0", "tag v0.1.0 already exists"), ("0.0.9", "CMakeLists.txt has version 0.1.0 already"),
+        for version, said in (("0.1.0", "tag v0.1.0 already exists"), ("0.0.9", "CMakeLists.txt already has version 0.1.0"),
                               ("v0.2.0", "three numbers"), ("0.2", "three numbers"), ("00.2.0", "three numbers")):
             self.assert_refused(self.release(version), said)
-        self.assert_refused(self.release("0.2.0", "0.3.0"), "one version")
+        self.assert_refused(self.release("0.2.0", "0.3.0"), "at most one version")
         self.git("tag", "-d", "v0.1.0")
-        self.assert_refused(self.release("0.1.0"), "CHANGELOG.md has a section of 0.1.0 already")
+        self.assert_refused(self.release("0.1.0"), "CHANGELOG.md already has a section for 0.1.0")
         (self.clone / "notes.txt").write_text("x")
         self.assert_refused(self.release("0.2.0"), "there are uncommitted changes; commit them, or start in a fresh clone: ?? notes.txt")
         (self.clone / "notes.txt").unlink()
@@ -174,14 +174,14 @@ class Release(unittest.TestCase):
     def test_refuses_to_make_again_what_is_no_release(self):
         (self.clone / "CMakeLists.txt").write_text("project(swarmsmith VERSION 0.2.0 LANGUAGES CXX)\n")
         self.commit("Version by hand")
-        self.assert_refused(self.release(), "this commit is not a release: CHANGELOG.md has no section of 0.2.0")
+        self.assert_refused(self.release(), "this commit is not a release: CHANGELOG.md has no section for 0.2.0")
 
     def assert_finished_by_what_it_says(self, said):
         done = self.release("0.2.0")
         self.assert_refused(done, said)
         self.assertIn("swarmsmith_0.2.0_amd64.deb", self.made("0.2.0"))
         (self.folder / ".gitconfig").write_text("[user]\nname = Anna\nemail = anna@example.org\n")
-        subprocess.run(["bash", "-ec", done.stderr.split("finish by: ")[1]], cwd=self.clone, env=self.environment, check=True,
+        subprocess.run(["bash", "-ec", done.stderr.split("finish with: ")[1]], cwd=self.clone, env=self.environment, check=True,
                        capture_output=True)
         self.assertEqual(self.git("rev-parse", "main"), self.git("rev-parse", "v0.2.0^{commit}"))
         self.assertEqual(self.git("log", "-1", "--format=%s", "main"), "Swarmsmith 0.2.0")
@@ -195,7 +195,7 @@ class Release(unittest.TestCase):
     def test_says_how_to_finish_when_git_makes_no_tag(self):
         (self.folder / ".gitconfig").write_text("[user]\nname = Anna\nemail = anna@example.org\n"
                                                 "[tag]\ngpgSign = true\n[gpg]\nprogram = false\n")
-        self.assert_finished_by_what_it_says("git made no tag")
+        self.assert_finished_by_what_it_says("git could not make the tag")
 
     def test_keeps_other_worktrees(self):
         other = self.folder / "other"

@@ -80,11 +80,12 @@ std::optional<Error> repeated(const std::vector<std::vector<TagLook>>& looks,
       if (count > 1) ++times;
     }
     if (2 * times <= looks.size()) continue;
-    return error_of(IssueCode::DuplicateId,
-                    fmt::format("tag {} is in the picture {} times: each floor tag has a number of "
-                                "its own; print them with `swarmsmith track print tags --ids`",
-                                tag.tag, most),
-                    "");
+    return error_of(
+        IssueCode::DuplicateId,
+        fmt::format("tag {} is in the picture {} times, but each floor tag needs its own "
+                    "number; print them with `swarmsmith track print tags --ids`",
+                    tag.tag, most),
+        "");
   }
   return std::nullopt;
 }
@@ -121,10 +122,11 @@ Expected<PlaceQuestion> question_of(const ArenaArguments& arguments, const Rig& 
   if (arguments.again) {
     const auto old = rig.places.find(camera.place_file);
     if (old == rig.places.end()) {
-      return Unexpected(error_of(IssueCode::Config,
-                                 "--again needs an earlier place, and there is none; give a video "
-                                 "of the empty arena instead",
-                                 beside(arguments.arena, camera.place_file)));
+      return Unexpected(
+          error_of(IssueCode::Config,
+                   "--again needs an earlier calibration, but there is none; give a video "
+                   "of the empty arena instead",
+                   beside(arguments.arena, camera.place_file)));
     }
     return question_again(old->second, std::move(question));
   }
@@ -137,8 +139,8 @@ Expected<PlaceQuestion> question_of(const ArenaArguments& arguments, const Rig& 
 
 Error beyond_reach(const CameraSetup& camera, double share) {
   return error_of(IssueCode::CalibrationQuality,
-                  fmt::format("{:.0f} % of the arena lies where the board never was in the picture "
-                              "(limit {:.0f} %), where the lens is a guess; take pictures with the "
+                  fmt::format("{:.0f} % of the arena lies where the board was in no picture (limit "
+                              "{:.0f} %), so the lens is a guess there; take pictures with the "
                               "board there, too, and `calibrate camera` again",
                               100 * share, 100 * kMostBeyondReach),
                   camera.model_file);
@@ -206,8 +208,8 @@ CommandRun declare_calibrate_arena(Options& options) {
   options.text("--arena FILE", arguments->arena, "Arena file", Options::Need::Required);
   options.text("--camera CAMERA", arguments->camera, "Camera, if the arena has several");
   options.flag("--again", arguments->again,
-               "Solve again from the corners of the last pictures, after a correction of the "
-               "survey or a new lens calibration");
+               "Solve again from the corners of the last pictures, after you corrected the survey "
+               "or calibrated the lens again");
   options.text("--mission MISSION|FILE", arguments->mission,
                "Mission whose arena the tags must cover (default: the thesis' dodecagon)");
   options.text("-o,--output FILE", arguments->file,

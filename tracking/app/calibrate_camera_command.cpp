@@ -172,11 +172,10 @@ ExitCode solve(const CameraArguments& arguments, const Target& target, const Boa
   print_cautions(output, cautions_of(calibration));
   print_note(output, "wrote " + target.file);
   if (target.has_place) {
-    print_note(
-        output,
-        "note: where the camera hangs was found with its last calibration; next: `swarmsmith "
-        "track calibrate arena --again --arena " +
-            command_word(arguments.arena) + "`");
+    print_note(output,
+               "note: the camera's place was found with its last calibration; next: `swarmsmith "
+               "track calibrate arena --again --arena " +
+                   command_word(arguments.arena) + "`");
   }
   return ExitCode::Done;
 }
@@ -206,10 +205,10 @@ ExitCode run(const CameraArguments& arguments, Output& output) {
     --right.rows;
     return fail_all(
         output, {error_of(IssueCode::CalibrationQuality,
-                          "the board is in none of the pictures, but one of " +
+                          "this board is in none of the pictures, but one of " +
                               std::to_string(right.columns) + " x " + std::to_string(right.rows) +
-                              " inner corners is: a chessboard's corners are counted, "
-                              "not its squares; say --board " +
+                              " inner corners is: count the inner corners of a chessboard, "
+                              "not its squares; use --board " +
                               board_text(right),
                           arguments.board)});
   }
@@ -229,14 +228,14 @@ CommandRun declare_calibrate_camera(Options& options) {
                Options::Need::Required);
   options.text("--arena FILE", arguments->arena, "Arena file, which names the file to write");
   options.text("--camera CAMERA", arguments->camera,
-               "The camera's name, when the arena has several (without an arena: ceiling)");
+               "The camera's name, if the arena has several (without an arena: ceiling)");
   options.text("-o,--output FILE", arguments->file,
                "File to write (default: the camera's `model` of the arena file, else its name and "
                ".camera.toml)");
   options.choice("--lens", arguments->lens, {"pinhole", "fisheye"},
                  "Model of the lens; fisheye for over about 100 degrees");
   options.text("--map FILE", arguments->map,
-               "Draw the corners' residuals over the frame to this .svg");
+               "Draw the corners' residuals over the frame into this .svg");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

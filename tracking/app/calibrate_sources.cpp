@@ -36,7 +36,7 @@ std::optional<Error> wrong_size(const RobotSetup& robot, double camera_height_m,
   // The height at which a tag with the declared edge would look like this one.
   const double height = camera_height_m - (camera_height_m - robot.height_m) / scale;
   const std::string text = fmt::format(
-      "tag {} of \"{}\": its edge measures {:.1f} mm, declared are {:.1f} mm ({:+.1f} %, limit "
+      "tag {} of \"{}\": its edge measures {:.1f} mm, but {:.1f} mm are declared ({:+.1f} %, limit "
       "{:.0f} "
       "%): either its `edge` (the black border) is {:.1f} mm, or its `height` is {:.3f} m and not "
       "{:.3f} m; measure both",
@@ -62,8 +62,8 @@ Expected<void> for_each_picture(const std::vector<std::string>& words, const OnP
     if (*size != info.size) {
       return Unexpected(
           error_of(IssueCode::CalibrationSize,
-                   fmt::format("this is {}x{}, the pictures before are {}x{}; one "
-                               "calibration is of one size of picture",
+                   fmt::format("this is {}x{}, but the pictures before are {}x{}; all "
+                               "pictures of a calibration must have the same size",
                                info.size.width, info.size.height, size->width, size->height),
                    words[i]));
     }
@@ -127,7 +127,7 @@ Expected<std::vector<TagSample>> tag_path(const std::string& video, const Rig& r
   }
   if (path.empty()) {
     return Unexpected(error_of(IssueCode::RobotMissing,
-                               fmt::format("tag {} of \"{}\" is never seen; check its number and "
+                               fmt::format("tag {} of \"{}\" was never seen; check its number and "
                                            "the family in the arena file, and the light",
                                            robot.tag, robot.name),
                                video));
@@ -147,7 +147,7 @@ Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name,
   if (!name.empty()) return Unexpected(unknown("camera", name, names, rig.file));
   return Unexpected(error_of(
       IssueCode::Config,
-      "the arena has several cameras; say which one with " + option + "; it has: " + joined(names),
+      "the arena has several cameras; choose one with " + option + "; it has: " + joined(names),
       rig.file));
 }
 

@@ -71,7 +71,7 @@ struct Missing {
 std::string next_step(const Missing& missing, const Rig& rig, const std::string& file) {
   const std::string arena = " --arena " + command_word(file);
   if (!missing.lenses.empty()) {
-    return "film a printed board from 15 or more sides with camera " + missing.lenses.front() +
+    return "film a printed board in 15 or more positions with camera " + missing.lenses.front() +
            ", then `swarmsmith track calibrate camera`; `swarmsmith track print board` prints one";
   }
   if (!missing.places.empty()) {
@@ -89,7 +89,7 @@ std::string next_step(const Missing& missing, const Rig& rig, const std::string&
 
 std::string line_of(const std::string& what, const Part& part) {
   const std::string head = "  " + what + std::string(8 - what.size(), ' ');
-  if (part.file.empty()) return head + "missing: name a file for it\n";
+  if (part.file.empty()) return head + "missing: give it a file name\n";
   if (!part.is_there) return head + part.file + ": missing\n";
   return head + part.file + ", made " + part.made + ": " + part.text + "\n";
 }
@@ -154,7 +154,7 @@ ExitCode run(const std::string& file, Output& output) {
       wrong.push_back(error_of(doubt.code, doubt.text, camera.place_file));
   }
   const std::string next =
-      wrong.empty() ? next_step(all.missing, *rig, file) : "mend what is wrong, as said above";
+      wrong.empty() ? next_step(all.missing, *rig, file) : "correct the errors above";
   if (output.json) {
     const auto text_of = [](const Error& error) { return to_string(error); };
     const bool is_ready = wrong.empty() && all.missing.lenses.empty() &&

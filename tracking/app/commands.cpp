@@ -32,14 +32,14 @@ constexpr std::string_view kTrackProfileDetails = R"(Examples:
   swarmsmith track profile run07.toml --arena arena.toml -o lab.toml
 
 Latency, slip of the treads, missed neighbours and control periods, from the robots' logs beside
-the film, with 95 % intervals and the spread between robots. What the runs do not tell stays as
-in the base, and the file says why. INVALID runs are left out. Design with it:
+the film, with 95 % intervals and the spread between robots. What the runs do not show stays as
+in the base profile, and the file says why. INVALID runs are left out. Design with it:
 [simulator] profile = "lab.toml".)";
 constexpr std::string_view kPrintSurveyDetails = R"(Example:
   swarmsmith track print survey --ids 100-105 --edge 0.10 -o survey.pdf
 
-A form to write down where the floor tags lie, with places to put them and distances of the
-arena's corners to check.)";
+A form to write down where the floor tags lie. It proposes their places, and has the distances
+between the arena's corners to check them.)";
 
 constexpr std::string_view kDetectDetails = R"(Examples:
   swarmsmith track detect run07.mp4
@@ -107,7 +107,7 @@ constexpr std::string_view kLiveDetails = R"(Examples:
 
 Open the printed address in a browser of this host; from another one through
 `ssh -L 8080:127.0.0.1:8080 HOST`. There is no window: a camera's computer often has no
-screen. A video file plays at its own speed. Frames that come too fast are dropped from view, and
+screen. A video file plays at its own speed. Frames that come too fast are not shown, but
 counted; a recording has them all. Ctrl-C ends it.)";
 
 constexpr std::array kCommands = {
@@ -128,15 +128,15 @@ constexpr std::array kCommands = {
                    kCalibrateArenaDetails, declare_calibrate_arena},
     ProgramCommand{"calibrate robot", "Find where a robot's tag sits on it from a spin",
                    kCalibrateRobotDetails, declare_calibrate_robot},
-    ProgramCommand{"print tags", "Tags to print and cut out, in true scale", kPrintTagsDetails,
+    ProgramCommand{"print tags", "Make tags to print and cut out, in true scale", kPrintTagsDetails,
                    declare_print_tags},
-    ProgramCommand{"print board", "A board to calibrate a camera with, in true scale",
+    ProgramCommand{"print board", "Make a board to calibrate a camera, in true scale",
                    kPrintBoardDetails, declare_print_board},
-    ProgramCommand{"print survey", "A form to fill in with the places of the floor tags",
+    ProgramCommand{"print survey", "Make a form for the places of the floor tags",
                    kPrintSurveyDetails, declare_print_survey},
     ProgramCommand{"report", "Write the quality report of a stored run, a page of HTML",
                    kTrackReportDetails, declare_track_report},
-    ProgramCommand{"profile", "Make a simulator profile of what scored runs tell of your robots",
+    ProgramCommand{"profile", "Make a simulator profile of your robots from scored runs",
                    kTrackProfileDetails, declare_track_profile},
     ProgramCommand{
         "record", "Record a camera with the time of each frame",
@@ -149,9 +149,9 @@ recording stays readable, except the last half second.
         declare_record},
     ProgramCommand{"overlay", "Draw the tracking of a run over its video", kOverlayDetails,
                    declare_overlay},
-    ProgramCommand{"live", "Watch a camera: show robots and tags as it films", kLiveDetails,
+    ProgramCommand{"live", "Watch a camera: show the robots and tags that it sees", kLiveDetails,
                    declare_live},
-    ProgramCommand{"version", "Print the versions of program and libraries", "",
+    ProgramCommand{"version", "Print the versions of the program and its libraries", "",
                    declare_track_version},
 };
 

@@ -89,7 +89,8 @@ Expected<Finds> look(const DetectWords& words, Output& output) {
   auto source = FrameSource::open(words.source);
   if (!source) return Unexpected(source.error());
   if ((*source)->info().is_live) {
-    return bad_input("a camera has no end: `swarmsmith track live` watches one", words.source);
+    return bad_input("a live camera has no end: watch it with `swarmsmith track live`",
+                     words.source);
   }
   const std::int64_t every = words.every.value_or(1);
   Finds finds;
@@ -116,10 +117,10 @@ Expected<Finds> look(const DetectWords& words, Output& output) {
   finds.notes = (*source)->info().oddities;
   if (finds.tags.empty() && family) finds.notes.push_back(*family);
   if (const std::int64_t damaged = (*source)->damaged_frames(); damaged > 0)
-    finds.notes.push_back(fmt::format("{} pictures of it are damaged and were left out", damaged));
+    finds.notes.push_back(fmt::format("{} of its pictures are damaged and were left out", damaged));
   if ((*source)->info().is_truncated)
     finds.notes.emplace_back(
-        "it ends before its own header says; copy it again, or check how its "
+        "it is shorter than its header says; copy it again, or check how its "
         "recording ended");
   return finds;
 }
@@ -162,9 +163,10 @@ void print(const Finds& finds, Output& output) {
       small += (small.empty() ? "" : ", ") + std::to_string(tag);
   }
   if (small.empty()) return;
-  print_note(output, fmt::format("below {:.0f} px along an edge tags are missed: {}; larger tags, "
-                                 "more pixels or a nearer camera help",
-                                 kSmall_px, small));
+  print_note(output,
+             fmt::format("tags with an edge below {:.0f} px can be missed: {}; use larger tags, "
+                         "more pixels or a nearer camera",
+                         kSmall_px, small));
 }
 
 ExitCode run(const DetectWords& words, Output& output) {

@@ -28,7 +28,7 @@ ExitCode run(const std::string& folder, Output& output) {
     const std::string file = (std::filesystem::path(folder) / each.name).string();
     if (!std::filesystem::exists(file, trouble)) continue;
     return fail(output, ExitCode::Usage,
-                Error{ErrorKind::BadInput, "is there already; name another folder", file});
+                Error{ErrorKind::BadInput, "already exists; name another folder", file});
   }
   std::vector<std::string> files;
   for (const Template& each : kTemplates) {

@@ -212,11 +212,11 @@ CommandRun declare_live(Options& options) {
                Options::Need::Required);
   options.text("--view CAMERA", words->view, "Camera of the arena file, if it has several");
   options.text("--mission MISSION|FILE", words->mission,
-               "Mission whose floor is drawn in: a name or a file");
+               "Mission whose floor is drawn: a name or a file");
   options.integer("--port", words->port, {0, 65'535},
                   "Port of the preview on 127.0.0.1 (default 8080; 0: a free one)");
   options.text("--board BOARD", words->board,
-               "Board held before the camera: shows which parts of the frame its views cover so "
+               "Board in front of the camera: show which parts of the frame its views cover so "
                "far (as for calibrate camera)");
   options.text("--record FILE", words->record,
                "Record all frames, a .mkv, with their times beside it");

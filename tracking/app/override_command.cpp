@@ -25,9 +25,10 @@ ExitCode run(const OverrideArguments& arguments, Output& output) {
   for (const auto& [option, text] :
        {std::pair("--who", arguments.who), std::pair("--reason", arguments.reason)}) {
     if (!is_blank(text)) continue;
-    return fail(output, ExitCode::Usage,
-                Error{ErrorKind::BadInput,
-                      "an override needs a name and a reason that others can read", option});
+    return fail(
+        output, ExitCode::Usage,
+        Error{ErrorKind::BadInput,
+              "an override needs your name and a reason, for those who read the results", option});
   }
   const auto kept = kept_run(arguments.store, arguments.run);
   if (!kept) return fail(output, kept.error());

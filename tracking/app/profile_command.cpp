@@ -85,11 +85,11 @@ void add_run(const KnownRun& run, Collected& collected) {
     }
   }
   if (collected.robots.size() == before) {
-    collected.left_out.push_back(run.name + " has no robot's log that can be read");
+    collected.left_out.push_back(run.name + " has no readable log of a robot");
     return;
   }
   for (const std::string& robot : without)
-    collected.left_out.push_back(run.name + ", " + robot + " has no log that can be read");
+    collected.left_out.push_back(run.name + ", " + robot + " has no readable log");
 }
 
 void print_figures(const LabProfile& profile, const Collected& collected, Output& output) {
@@ -148,7 +148,7 @@ ExitCode write(const ProfileArguments& arguments, const LabProfile& profile,
   print_figures(profile, collected, output);
   if (!arguments.file.empty()) {
     print_note(output, arguments.file +
-                           " can be named in a campaign file: [simulator] profile = \"" +
+                           ": use it in a campaign file with [simulator] profile = \"" +
                            arguments.file + "\"");
   }
   return ExitCode::Done;
@@ -165,7 +165,7 @@ std::optional<std::string> same_run(const std::vector<MeasuredRobot>& robots) {
       };
       if (is_same(robots[i], robots[j])) {
         return robots[j].run + " and " + robots[i].run +
-               " are one run, by their figures; name it once";
+               " have the same figures, so they are one run; name it once";
       }
     }
   }
@@ -177,15 +177,15 @@ std::optional<Error> flaw_of(const std::string& file) {
   if (file.empty() || file == "-") return std::nullopt;
   const std::string name = std::filesystem::path(file).stem().string();
   if (!file.ends_with(".toml"))
-    return Error{ErrorKind::BadInput, "a profile's file ends in .toml", file};
+    return Error{ErrorKind::BadInput, "a profile's file must end in .toml", file};
   if (built_in_profile(name)) {
     return Error{ErrorKind::BadInput,
-                 "a profile has its file's name, and `" + name +
-                     "` is built in with other values; give the file another name",
+                 "a profile gets its file's name, but `" + name +
+                     "` is built in with other values; name another file",
                  file};
   }
   if (std::error_code none; std::filesystem::exists(file, none))
-    return Error{ErrorKind::BadInput, "is there already; name another file", file};
+    return Error{ErrorKind::BadInput, "already exists; name another file", file};
   return flaw_of_output(file);
 }
 
@@ -212,7 +212,7 @@ ExitCode run(const ProfileArguments& arguments, Output& output) {
   const LabProfile profile = lab_profile(
       {.robots = collected.robots, .base = arguments.base, .program = track_program_name()});
   if (!profile.is_measured()) {
-    std::string why = "these runs tell nothing that a profile needs";
+    std::string why = "these runs show nothing that a profile needs";
     for (const std::string& run : collected.left_out)
       why += "; " + run;
     for (const LabFigure& figure : profile.figures) {
@@ -239,7 +239,7 @@ CommandRun declare_track_profile(Options& options) {
   options.text("--store STORE", arguments->store, "The store (else SWARMSMITH_STORE)");
   options.text("--arena FILE", arguments->arena, "Arena file of the run logs");
   options.choice("--base", arguments->base, profile_names(),
-                 "The built-in profile that holds for all else");
+                 "Built-in profile for everything else");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

@@ -76,8 +76,8 @@ ExitCode record(const RecordWords& words, Output& output) {
   if (!rate) return failed(rate.error());
   if (const auto right = check_recording_name(words.file); !right) return failed(right.error());
   if (words.quality && words.codec == "ffv1") {
-    return failed({ErrorKind::BadInput, "ffv1 keeps every bit and has no quality; leave it out",
-                   "--quality"});
+    return failed({ErrorKind::BadInput,
+                   "ffv1 keeps every bit and has no quality; leave out --quality", "--quality"});
   }
   auto source = FrameSource::open(words.source);
   if (!source) return failed(source.error());
@@ -117,7 +117,7 @@ ExitCode record(const RecordWords& words, Output& output) {
   if (done) return answer(words, recording, output);
   Error error = done.error();
   error.message +=
-      fmt::format("; {} holds what came before, at most {:.1f} s", words.file, recording.seconds());
+      fmt::format("; {} has what came before, at most {:.1f} s", words.file, recording.seconds());
   return failed(error);
 }
 

@@ -26,12 +26,12 @@ std::string sidecar_name(const std::string& video) {
 
 Expected<void> check_recording_name(const std::string& file) {
   if (!file.ends_with(".mkv")) {
-    return bad_input("a recording is a .mkv, which stays readable when it is cut off", file);
+    return bad_input("a recording must be a .mkv, which stays readable if it is cut off", file);
   }
   std::error_code ignored;
   for (const std::string& name : {file, sidecar_name(file)}) {
     if (!std::filesystem::exists(name, ignored)) continue;
-    return bad_input("exists already; a recording never overwrites a file", name);
+    return bad_input("already exists; a recording never overwrites a file", name);
   }
   return {};
 }

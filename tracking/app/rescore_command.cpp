@@ -44,7 +44,7 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
     if (log.videos[i].camera.empty()) log.videos[i].camera = before.videos[i].camera;
     if (log.videos[i].camera == before.videos[i].camera) continue;
     return refused(error_of(IssueCode::Config,
-                            "video " + std::to_string(i + 1) + " of the run is by camera \"" +
+                            "video " + std::to_string(i + 1) + " of the run is from camera \"" +
                                 before.videos[i].camera + "\", the log says \"" +
                                 log.videos[i].camera + "\"",
                             file));
@@ -52,8 +52,8 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   if (log.layout.source != RunLayout::Source::Measured) return log;
   if (before.layout.source != RunLayout::Source::Measured) {
     return refused(error_of(IssueCode::LayoutMissing,
-                            "the patches of this run were not measured when its video was here; "
-                            "give them by [[patch]], or score the video again",
+                            "the patches of this run were not measured while its video was here; "
+                            "add them with [[patch]], or score the video again",
                             file));
   }
   log.layout = before.layout;
@@ -135,7 +135,7 @@ std::optional<std::string> void_override(const KeptRun& before, const RunFinding
   if (by_person == nullptr || overriding(run.overrides) != nullptr) return std::nullopt;
   return "The verdict " + std::string(name_of(by_person->verdict)) + " by " + by_person->who +
          " no longer counts: inputs or result are not those that " + by_person->who +
-         " saw. Give it again if it still holds: `swarmsmith track override " + word + " --store " +
+         " saw. If it still holds, repeat it: `swarmsmith track override " + word + " --store " +
          command_word(before.store) + "`.";
 }
 

@@ -42,7 +42,7 @@ void check_robot(const std::string& robot, const std::string& section, const Run
     errors.push_back(unknown("robot", robot, robots, rig.file));
   } else if (!log.robots.empty() && std::ranges::find(log.robots, robot) == log.robots.end()) {
     errors.push_back(error_of(IssueCode::Config,
-                              "the run's list `robots` leaves out \"" + robot + "\", and has: " +
+                              "the run's list `robots` leaves out \"" + robot + "\"; it has: " +
                                   joined(log.robots) + "; add it there, or take out its " + section,
                               log.name));
   }
@@ -103,7 +103,7 @@ std::vector<Error> faults_of_points(const RunLog& log) {
     errors.push_back(error_of(
         IssueCode::Config,
         fmt::format(
-            "the [[point]] of \"{}\" is at {:.2f} s, and the run goes from 0 s to {:.1f} s; "
+            "the [[point]] of \"{}\" is at {:.2f} s, but the run goes from 0 s to {:.1f} s; "
             "`time` counts from the start of the run, not of the film",
             point.robot, point.time_s, duration_s),
         log.name));
@@ -136,8 +136,8 @@ std::vector<Error> faults_of_rig(const Rig& rig, const Mission& mission,
     errors.push_back(
         error_of(IssueCode::Config,
                  "mission " + mission.name + " has " + std::to_string(mission.robots) +
-                     " robots, the run " + std::to_string(rig.robots.size()) +
-                     "; name in the run log those that took part: robots = [\"rvr1\", ...]",
+                     " robots, but the run has " + std::to_string(rig.robots.size()) +
+                     "; list in the run log those that took part: robots = [\"rvr1\", ...]",
                  rig.file));
   }
   if (takes_tags_for_centres) return errors;

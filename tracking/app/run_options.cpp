@@ -52,8 +52,8 @@ void take_control(const ScoreArguments& arguments, RunLog& log, std::vector<Erro
     return is_number ? letter + word : word;
   };
   if (!arguments.design.empty() && !arguments.candidate.empty()) {
-    errors.push_back(wrong_option("a candidate implies its design; give --design or --candidate",
-                                  "--candidate"));
+    errors.push_back(wrong_option(
+        "a candidate belongs to a design; give --design or --candidate, not both", "--candidate"));
   }
   if (!arguments.design.empty()) {
     log.design = lettered(arguments.design, 'd');
@@ -122,7 +122,7 @@ std::vector<Error> take_options(const ScoreArguments& arguments, RunLog& log) {
     log.name = arguments.name;
     if (!is_name(log.name)) {
       errors.push_back(
-          wrong_option("a name consists of letters, digits, `_`, `-` and `.`", "--name"));
+          wrong_option("a name must consist of letters, digits, `_`, `-` and `.`", "--name"));
     }
   }
   if (!arguments.recorded.empty()) {

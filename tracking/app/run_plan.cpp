@@ -42,7 +42,7 @@ OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
   }
   if (!arguments.videos.empty() && arguments.videos.size() != count) {
     return refused(ExitCode::Usage, wrong_option("the run log has " + counted(count, "video") +
-                                                     "; name as many, or none",
+                                                     "; name as many videos, or none",
                                                  "VIDEO"));
   }
   if (!arguments.times.empty() && arguments.times.size() != count) {
@@ -105,15 +105,15 @@ OrRefusal<std::optional<RanMachine>> settle_control(const ScoreArguments& argume
           ExitCode::NoSuchId,
           {ErrorKind::NotFound,
            to_string(plan.candidate) + " was designed for mission \"" + control->mission.name +
-               "\", the run is of mission \"" + log.mission.name + "\"",
+               "\", but the run is of mission \"" + log.mission.name + "\"",
            plan.store});
     }
   }
   if (log.mission.name.empty()) {
-    return refused(
-        wrong_option("no mission given; name it in the run log, by --mission, or by the design "
-                     "that ran: --design",
-                     "--mission"));
+    return refused(wrong_option(
+        "no mission given; name it in the run log or with --mission, or give the design "
+        "that ran: --design",
+        "--mission"));
   }
   return machine;
 }

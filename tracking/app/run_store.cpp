@@ -136,11 +136,12 @@ OrRefusal<void> check_source(const RunLog& log, const std::string& store) {
       is_profile = (*reader)->kept_profiles().contains(log.source);
   }
   if (!is_profile) return {};
-  return refused(error_of(IssueCode::Config,
-                          "`source` is \"" + log.source +
-                              "\", which is a profile of the simulator: scores of this film would "
-                              "look like simulated ones; give it another name, such as \"real\"",
-                          log.name));
+  return refused(
+      error_of(IssueCode::Config,
+               "`source` is \"" + log.source +
+                   "\", which is a profile of the simulator, so scores of this film would "
+                   "look simulated; give it another name, such as \"real\"",
+               log.name));
 }
 
 OrRefusal<std::unique_ptr<StoreAtRest>> open_store(const std::string& store,

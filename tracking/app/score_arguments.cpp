@@ -15,7 +15,7 @@ void ScoreArguments::declare(Options& options) {
       "VIDEO FILE", videos,
       "Videos, folders of images or bags, one per camera (default: those of the run log)");
   options.text("--arena FILE", arena, "Arena file", Options::Need::Required);
-  options.text("--run FILE", run, "Run log; options win over it");
+  options.text("--run FILE", run, "Run log; options override it");
   options.text("--mission MISSION|FILE", mission,
                joined(mission_names()) + " or a file (default: the design's)");
   options.text("--design DESIGN", design, "Design of the store whose winner ran: d3");
@@ -31,8 +31,8 @@ void ScoreArguments::declare(Options& options) {
   options.text("--name NAME", name, "Name of the run (default: the log's, else the video's)");
   options.text("--recorded DATE", recorded, "Date of the run, 2026-11-21");
   options.flag("--accept-tag-as-centre", takes_tags_for_centres,
-               "Score robots without an offset calibration; the score is then marked BIASED");
-  options.text("--into STORE", into, "Store to keep the run in; made if needed");
+               "Score robots without an offset calibration, which marks the score BIASED");
+  options.text("--into STORE", into, "Store for the run; created if needed");
   options.text("--store STORE", store, "The same for an existing store (else SWARMSMITH_STORE)");
   options.text("--csv FILE", csv,
                "Write the trajectory: cycle,time_s,robot,x,y,theta (docs/trajectories.md)");

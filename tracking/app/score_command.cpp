@@ -61,7 +61,7 @@ void print_result(const RunPlan& plan, const RunFindings& run,
     return;
   }
   if (!written->is_new) {
-    output.out << "It was stored already, as " << id << " in " << plan.store
+    output.out << "It was already stored, as " << id << " in " << plan.store
                << "; nothing was added.\n";
     return;
   }

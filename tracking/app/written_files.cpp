@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 Error is_there(const std::string& file, const std::string& what) {
   return {ErrorKind::BadInput,
-          "is there already" + what +
+          "already exists" + what +
               " and would be lost; name another file to write, or remove "
               "this one first",
           file};
@@ -64,7 +64,7 @@ std::optional<Error> flaw_of_new_folder(const std::string& folder) {
   std::error_code trouble;
   if (fs::is_directory(folder, trouble) && !fs::is_empty(folder, trouble)) {
     return Error{ErrorKind::BadInput,
-                 "this folder is there already and is not empty; name another folder for the "
+                 "this folder already exists and is not empty; name another folder for the "
                  "pictures",
                  folder};
   }

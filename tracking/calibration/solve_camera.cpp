@@ -189,21 +189,22 @@ Expected<CameraSolution> solve_camera(std::span<const BoardView> views, ImageSiz
     solution.views[i].dropped = views[i].seen.size() < kLeastCorners;
   }
   if (used.size() < kLeastViews) {
-    return Unexpected(
-        error_of(IssueCode::CalibrationQuality,
-                 fmt::format("{} views show at least {} corners of the board, at least 10 are "
-                             "needed; is the board the one that was described, flat and sharp?",
-                             used.size(), kLeastCorners),
-                 ""));
+    return Unexpected(error_of(
+        IssueCode::CalibrationQuality,
+        fmt::format("only {} views show at least {} corners of the board, but 10 are needed; "
+                    "is the board as described, flat and sharp?",
+                    used.size(), kLeastCorners),
+        ""));
   }
   while (true) {
     const Points points = points_of(views, used);
     const std::optional<Fit> fit = best_fit(points, size, lens);
     if (!fit) {
-      return Unexpected(error_of(IssueCode::CalibrationQuality,
-                                 "no camera explains the views; is the board described correctly, "
-                                 "and do some views tilt it?",
-                                 ""));
+      return Unexpected(
+          error_of(IssueCode::CalibrationQuality,
+                   "no camera model fits the views; is the board described correctly, "
+                   "and do some views tilt it?",
+                   ""));
     }
     for (std::size_t k = 0; k < used.size(); ++k)
       solution.views[used[k]] = view_of(points, k, *fit, lens);

@@ -97,8 +97,8 @@ Expected<OffsetCalibration> solve_offset(std::span<const TagSample> samples) {
   const double turned = turn_of(kept);
   if (!fit) {
     return refuse(
-        fmt::format("{} samples over {:.0f} degrees do not show a turn; film the robot "
-                    "turning on the spot, two turns or more",
+        fmt::format("{} samples over {:.0f} degrees are not enough; film the robot turning "
+                    "on the spot, two turns or more",
                     kept.size(), turned / kDegree));
   }
   const double variance = fit->squares / (static_cast<double>(2 * kept.size()) - 6);
@@ -125,7 +125,7 @@ Expected<TravelYaw> solve_yaw(std::span<const TagSample> samples, const TagOffse
         std::hypot(centres.back().x - centres.front().x, centres.back().y - centres.front().y);
   }
   if (!(travel.length_m >= kLeastRun_m)) {
-    return refuse(fmt::format("the straight run is {:.2f} m long, at least {} m are needed",
+    return refuse(fmt::format("the straight run is {:.2f} m long, but at least {} m are needed",
                               travel.length_m, kLeastRun_m));
   }
   double sine = 0;

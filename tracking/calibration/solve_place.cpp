@@ -158,19 +158,19 @@ Expected<PlaceCalibration> solve_place(const PlaceQuestion& question) {
   const auto count = static_cast<int>(question.seen.size());
   if (count < question.limits.least_tags) {
     return refuse(IssueCode::ReferenceTags,
-                  fmt::format("the camera sees {} of the surveyed floor tags, at least {} are "
+                  fmt::format("the camera sees {} of the surveyed floor tags, but at least {} are "
                               "needed; check their ids and the family in the arena file, the "
-                              "light, and that nothing lies on them",
+                              "light, and that nothing covers them",
                               count, question.limits.least_tags));
   }
   if (are_in_line(question.seen)) {
     return refuse(IssueCode::ReferenceTags,
-                  "the floor tags that are seen lie in one line; lay some beside it, at the walls");
+                  "the visible floor tags lie in one line; put some beside it, near the walls");
   }
   const auto fit = fit_place(question.seen, question.camera);
   if (!fit) {
     return refuse(IssueCode::Extrinsics,
-                  "no place above the floor explains the floor tags; check x, y, angle and edge "
+                  "no camera place above the floor fits the floor tags; check x, y, angle and edge "
                   "of each in the arena file");
   }
   const View view{question.camera, fit->place};

@@ -57,7 +57,7 @@ std::vector<int> mirrored_tags(TagDetector& detector, const GrayImage& image);
 bool is_mirrored(TagDetector& detector, const GrayImage& image);
 /// The advice for mirrored images.
 inline constexpr const char* kMirroredAdvice =
-    "the pictures are mirrored: tags are found in their mirror image alone; turn mirroring off in "
+    "the pictures are mirrored: tags are found only in their mirror image; turn mirroring off in "
     "the camera's settings, and calibrate from pictures that are not mirrored";
 
 }  // namespace swarmsmith

@@ -41,8 +41,9 @@ Expected<TagPattern> tag_pattern(const std::string& family, int id) {
   std::vector<std::string> names;
   for (const TagFamily& known : known_tag_families())
     names.emplace_back(known.name);
-  return bad_input("\"" + family + "\" is none of: " + joined(names) + did_you_mean(family, names),
-                   "--family");
+  return bad_input(
+      "\"" + family + "\" is not one of: " + joined(names) + did_you_mean(family, names),
+      "--family");
 }
 
 }  // namespace swarmsmith

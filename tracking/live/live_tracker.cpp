@@ -101,8 +101,8 @@ LiveState LiveTracker::look_at(const GrayImage& image, std::int64_t frame, doubl
   // wrong place.
   if (view_.has_value() && view_->camera.size != ImageSize{image.width, image.height}) {
     state.issues.push_back(fmt::format(
-        "the camera's calibration is for {} x {} pixels, its pictures have {} x {}: "
-        "tags alone are shown",
+        "the camera's calibration is for {} x {} pixels, but its pictures have {} x {}: "
+        "only tags are shown",
         view_->camera.size.width, view_->camera.size.height, image.width, image.height));
     view_.reset();
   }
@@ -157,7 +157,7 @@ void LiveTracker::place(std::size_t robot, const std::vector<Detection>& seen, d
 void LiveTracker::add_issues(const std::vector<Detection>& seen, LiveState& state) const {
   if (!view_.has_value() && state.issues.empty())
     state.issues.push_back(
-        fmt::format("camera {} is not calibrated: tags alone are shown", camera_.name));
+        fmt::format("camera {} is not calibrated: only tags are shown", camera_.name));
   if (state.camera_shift_px.value_or(0) > kMoved_px)
     state.issues.push_back(fmt::format(
         "the camera moved: its floor tags are {:.1f} px off where they were calibrated; "
@@ -170,7 +170,7 @@ void LiveTracker::add_issues(const std::vector<Detection>& seen, LiveState& stat
       state.issues.push_back(who + " has not been seen yet");
     else if (state.time_s - *robot.seen_s > kLost_s)
       state.issues.push_back(
-          fmt::format("{} is not seen for {:.1f} s", who, state.time_s - *robot.seen_s));
+          fmt::format("{} has not been seen for {:.1f} s", who, state.time_s - *robot.seen_s));
     if (!robot.is_seen || !robot.pose.has_value()) continue;
     if (!rig_.offset_of(rig_.robots[i]).has_value())
       state.issues.push_back(who + " has no offset calibration: its tag is used as its centre");
@@ -186,7 +186,7 @@ void LiveTracker::add_issues(const std::vector<Detection>& seen, LiveState& stat
     if (again && (i < 2 || seen[i - 2].tag != seen[i].tag))
       state.issues.push_back(fmt::format("tag {} is visible more than once", seen[i].tag));
     if (!again && kind_of(rig_, seen[i].tag) == OverlayTag::Kind::Unknown)
-      state.issues.push_back(fmt::format("tag {} belongs to no robot", seen[i].tag));
+      state.issues.push_back(fmt::format("tag {} does not belong to a robot", seen[i].tag));
   }
 }
 

@@ -308,7 +308,7 @@ void judge_lenses(const Rig& rig, const Arena& arena, TrackedRun& run) {
                 .subject = camera.name,
                 .limit = 100 * kMostBeyondReach,
                 .unit = "%",
-                .catches = "a lens that is a guess where robots drive"};
+                .catches = "a lens calibration that is a guess where robots drive"};
     if (!share) {
       check.outcome = Check::Outcome::NotRun;
       check.reason = "its file does not say where the board was; `calibrate camera` again";

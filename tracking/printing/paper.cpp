@@ -24,7 +24,8 @@ Expected<Paper> paper_from_name(std::string_view name) {
   for (const KnownPaper& paper : kPapers) {
     if (paper.name == name) return Paper{std::string(name), paper.width_mm, paper.height_mm};
   }
-  return bad_input("\"" + std::string(name) + "\" is none of: " + joined(paper_names()), "paper");
+  return bad_input("\"" + std::string(name) + "\" is not one of: " + joined(paper_names()),
+                   "paper");
 }
 
 std::vector<std::string> paper_names() {

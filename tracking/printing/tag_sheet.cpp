@@ -156,8 +156,8 @@ Expected<std::vector<int>> ids_from_text(std::string_view text) {
     if (!last) return tl::unexpected(last.error());
     if (*last < *first || static_cast<std::size_t>(*last - *first) >= kMostIds) {
       return bad_input(
-          fmt::format("\"{}\" is not a range: it goes from the smaller to the larger id, "
-                      "over at most {} of them",
+          fmt::format("\"{}\" is not a range: write it from the smaller to the larger id, "
+                      "at most {} ids",
                       part, kMostIds),
           "--ids");
     }

@@ -85,8 +85,8 @@ class Writer {
     text_ = fmt::format(
         "# A profile of the simulator that {} measured on {} robot{} ({}) in {} run{} ({}).\n"
         "# Numbers in brackets are 95 % intervals of the mean. `spread` is the standard deviation\n"
-        "# between robots and runs, beyond what the errors of single runs explain. What is not "
-        "here\n# is as in the profile `{}`.\n"
+        "# between robots and runs, beyond what the errors of single runs explain. The\n"
+        "# rest is as in the profile `{}`.\n"
         "format = 1\nbase   = {}\n",
         source_.program, names.size(), names.size() == 1 ? "" : "s",
         fmt::format("{}", fmt::join(names, ", ")), runs.size(), runs.size() == 1 ? "" : "s",
@@ -103,7 +103,7 @@ class Writer {
   static std::string count_text(const Told& told) {
     std::string text =
         "of " + counted(told.robots.size(), "robot") + " in " + counted(told.runs.size(), "run");
-    if (!told.reasons.empty()) text += fmt::format(" ({} could not tell)", told.reasons.size());
+    if (!told.reasons.empty()) text += fmt::format(" ({} without a result)", told.reasons.size());
     return text;
   }
 
@@ -117,13 +117,13 @@ class Writer {
 
   /// The comment on a figure that could not be measured; also adds the figure.
   std::string left(const std::string& name, const Told& told, const std::string& unit) {
-    std::string reason = "no robot could tell it";
+    std::string reason = "no robot's runs show it";
     for (std::size_t i = 0; i < std::min(told.reasons.size(), kReasons); ++i)
       reason += (i == 0 ? ": " : "; ") + told.reasons[i];
     if (told.reasons.size() > kReasons)
       reason += fmt::format("; and {} more", told.reasons.size() - kReasons);
     figures_.push_back({name, {}, unit, {}, reason});
-    return fmt::format("# {}: left as in `{}`, since {}\n", name, source_.base, reason);
+    return fmt::format("# {}: as in `{}`, because {}\n", name, source_.base, reason);
   }
 
   std::string neighbours() {
@@ -148,8 +148,8 @@ class Writer {
     figures_.push_back({name, all, "%", count_text(told), {}});
     text += comment(name, all, told, 100, "%");
     text += fmt::format(
-        "# Chances: {} robots in reach, in single control cycles. In {} more cycles a log has a\n"
-        "# neighbour where no robot was: profiles know none of these.\n",
+        "# Counted: {} robots in reach, in single control cycles. In {} more cycles a log has a\n"
+        "# neighbour where no robot was; profiles cannot contain such neighbours.\n",
         there, phantoms);
     const Groups groups = grouped(told.estimates);
     const auto rate = [](std::span<const Estimate> rates) {
@@ -159,7 +159,7 @@ class Writer {
     if (groups.weak.empty()) return text + "weak_share     = 0\nweak_miss_rate = 0\n";
     const double share =
         static_cast<double>(groups.weak.size()) / static_cast<double>(told.estimates.size());
-    text += fmt::format("# {} of {} robots in a run had trouble for the whole of it.\n",
+    text += fmt::format("# {} of {} robots in a run missed many neighbours during the whole run.\n",
                         groups.weak.size(), told.estimates.size());
     return text + "weak_share     = " + number_text(rounded(share, 1e4)) +
            "\nweak_miss_rate = " + rate(groups.weak) + "\n";
@@ -196,11 +196,10 @@ class Writer {
     std::string text = comment("latency", all, told, 1000, "ms");
     text += fmt::format(
         "# From command to treads, by {} changes of the turning, which scatter by {:.1f} ms "
-        "within\n"
-        "# robots. What the simulator's own treads take is left out.\n",
+        "within\n# robots. The latency of the simulator's own treads is subtracted.\n",
         delays_s.size(), 1000 * scatter_s);
     if (drawn.empty() || delays_s.size() < kLeastOfLaw) return text + delays_of_mean(all, 0);
-    text += "# Late commands delay those after them, which is taken out here.\ndelays = [\n";
+    text += "# Late commands also delay the next ones; this is subtracted.\ndelays = [\n";
     double left = 1;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       const bool is_last = i + 1 == drawn.size();
@@ -235,7 +234,7 @@ class Writer {
     const double before_ms = kStep_ms * std::floor(mean_ms / kStep_ms);
     const double share = rounded((mean_ms - before_ms) / kStep_ms, 100);
     if (mean_ms < kStep_ms / 2 && 1000 * all.low <= own_ms)
-      return "# It cannot be told from none.\ndelays = []\n";
+      return "# It cannot be distinguished from zero.\ndelays = []\n";
     std::string list;
     if (share < 1) list = delay_text(before_ms, rounded(1 - share, 100));
     if (share > 0) list += (list.empty() ? "" : ", ") + delay_text(before_ms + kStep_ms, share);
@@ -255,9 +254,7 @@ class Writer {
     const Pooled all = pooled(told.estimates);
     figures_.push_back({"latency", all, "ms", count_text(told), {}});
     return comment("latency", all, told, 1000, "ms") +
-           "# From command to treads, by the motion of whole runs, less the 5 ms that the "
-           "simulator "
-           "takes itself.\n" +
+           "# From command to treads, by the motion of whole runs, less the simulator's 5 ms.\n" +
            delays_of_mean(all, kHalfStep_ms);
   }
 
@@ -294,7 +291,8 @@ class Writer {
         into.add(of, gain.gain ? std::optional(Estimate{*gain.gain, gain.error}) : std::nullopt,
                  gain.reason);
       });
-      const std::string name = is_way ? "way gone of the way told" : "turn made of the turn told";
+      const std::string name =
+          is_way ? "way driven, of that commanded" : "turn made, of that commanded";
       if (told.estimates.empty()) {
         text += left(name, told, "%");
         continue;
@@ -310,8 +308,8 @@ class Writer {
 
   std::string foot() const {
     return fmt::format(
-        "\n# Neither logs nor film tell the noise of proximity sensors, of the ground's colour and "
-        "of the\n# lidar, nor the treads' steps: they are as in `{}`.\n",
+        "\n# Logs and film do not show the noise of proximity sensors, ground colour and lidar, "
+        "nor the\n# treads' steps: these are as in `{}`.\n",
         source_.base);
   }
 

@@ -22,7 +22,7 @@ struct LabFigure {
   std::string name;  ///< "latency"
   std::optional<Pooled> value;
   std::string unit;    ///< "ms", "%"
-  std::string basis;   ///< "of 3 robots in 4 runs (1 could not tell)"
+  std::string basis;   ///< "of 3 robots in 4 runs (1 without a result)"
   std::string reason;  ///< why the base's value was kept, a sentence
 };
 

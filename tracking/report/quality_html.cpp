@@ -67,7 +67,7 @@ void write_verdict(HtmlPage& page, const RunFindings& run) {
   }
   for (const std::string& reason : run.scored.reasons)
     page.paragraph(reason);
-  if (run.scored.reasons.empty()) page.paragraph("Nothing speaks against the score.");
+  if (run.scored.reasons.empty()) page.paragraph("There are no objections to the score.");
   if (const auto missing = unasked(run.scored.checks); !missing.empty())
     page.paragraph(fmt::format("Not checked: {}.", fmt::join(missing, ", ")));
   if (run.scored.biased) {
@@ -181,15 +181,15 @@ void write_robots(HtmlPage& page, const RunFindings& run) {
 }
 
 std::string latency_text(const Latency& latency) {
-  if (!latency.seconds) return "cannot be told: " + latency.reason;
+  if (!latency.seconds) return "cannot be determined: " + latency.reason;
   return fmt::format("{:.0f} +- {:.1f}", 1000 * *latency.seconds, 1000 * latency.error_s);
 }
 
 void write_logs(HtmlPage& page, const RunFindings& run) {
   HtmlTable logs{.caption =
-                     "What the robots wrote down themselves: control cycles, and how late they "
-                     "began; the latency is the time by which the motion that the camera saw is "
-                     "behind the commands.",
+                     "What the robots recorded themselves: control cycles, and how late they "
+                     "began; the latency is how long after the commands the camera saw the "
+                     "motion.",
                  .columns = {{"Robot"},
                              {"Its verdict"},
                              {"Stepped", true},
@@ -281,7 +281,7 @@ void write_issues(HtmlPage& page, const RunFindings& run) {
   if (run.scored.issues.empty()) page.paragraph("None.");
   HtmlTable issues{.caption =
                        "What docs/tracking.md says of each code: E_ makes a run invalid or "
-                       "stops it, W_ is to be known",
+                       "stops it, W_ is a warning",
                    .columns = {{"Code"}, {"Robot"}, {"Time (s)"}, {"What"}}};
   for (const Issue& issue : run.scored.issues) {
     issues.rows.push_back(
@@ -302,8 +302,8 @@ void write_checks(HtmlPage& page, const RunFindings& run) {
                              count(Check::Outcome::Warned), count(Check::Outcome::Failed),
                              count(Check::Outcome::NotRun)));
   HtmlTable table{.caption =
-                      "What the run was asked before its score counts, and what the answer would "
-                      "have shown",
+                      "The checks of the run, which decide whether its score counts, and what each "
+                      "can find",
                   .columns = {{"Outcome"},
                               {"Check"},
                               {"Of"},

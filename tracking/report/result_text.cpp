@@ -17,8 +17,8 @@ namespace swarmsmith {
 namespace {
 
 std::string latency_text(const Latency& latency) {
-  if (!latency.seconds) return "latency cannot be told: " + latency.reason;
-  return fmt::format("latency {:.0f} ms +- {:.1f} ms: its motion behind its commands",
+  if (!latency.seconds) return "latency cannot be determined: " + latency.reason;
+  return fmt::format("latency {:.0f} ms +- {:.1f} ms, from its commands to its motion",
                      1000 * *latency.seconds, 1000 * latency.error_s);
 }
 

@@ -91,8 +91,8 @@ bool read_head(TableReader& root, const std::string& kind) {
   read_format(root);
   const std::string found = text_of(root, "kind");
   if (found.empty() || found == kind) return true;
-  root.complain("kind", "this is a calibration of kind \"" + found +
-                            "\", wanted is one of kind \"" + kind + "\"");
+  root.complain("kind", "this is a calibration of kind \"" + found + "\"; expected one of kind \"" +
+                            kind + "\"");
   return false;
 }
 
@@ -248,8 +248,8 @@ OrComplaints<PlaceCalibration> parse_place_calibration(std::string_view text,
   calibration.place.translation = {t[0], t[1], t[2]};
   if (root.complaints() == 0 && !is_rotation(calibration.place.rotation)) {
     root.complain("rotation",
-                  "E_CALIB_QUALITY: `rotation` is none: its rows must have length 1, "
-                  "stand on each other and not mirror; make the file again with "
+                  "E_CALIB_QUALITY: `rotation` is not a rotation: its rows must have length 1, "
+                  "be orthogonal and not mirror; make the file again with "
                   "`swarmsmith track calibrate arena`");
   }
   calibration.rms_px = number_of(root, "rms_px", kNotNegative);

@@ -53,7 +53,7 @@ int read_tag(TableReader& table, Reading& reading, const std::string& owner) {
     if (taken != number) continue;
     table.complain("tag", "E_DUPLICATE_ID: tag " + std::to_string(number) + " is on " + by +
                               " and on " + owner +
-                              "; each robot and each place on the floor needs a tag of its own");
+                              "; each robot and each place on the floor needs its own tag");
   }
   reading.tags.emplace_back(number, owner);
   return number;

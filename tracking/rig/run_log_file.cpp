@@ -34,7 +34,7 @@ Mission read_log_mission(TableReader& root, const std::filesystem::path& folder)
     auto missions = read_missions(root, folder);
     if (missions.size() == 1) return std::move(missions.front().mission);
     root.complain("mission",
-                  "a run has one mission, the file has " + std::to_string(missions.size()));
+                  "a run has one mission, but the file has " + std::to_string(missions.size()));
     return {};
   }
   const auto word = root.text("mission");
@@ -69,7 +69,8 @@ void read_control(TableReader& root, RunLog& log) {
     }
   }
   if (root.has("design") && root.has("candidate")) {
-    root.complain("candidate", "a candidate has its design with it; give `design` or `candidate`");
+    root.complain("candidate",
+                  "a candidate belongs to a design; give `design` or `candidate`, not both");
   }
 }
 
@@ -165,7 +166,7 @@ void check_notes(TableReader& root, const std::vector<RobotNote>& notes) {
   for (std::size_t i = 0; i < notes.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (notes[i].robot != notes[k].robot) continue;
-      root.complain("robot", "two [[robot]] are of robot \"" + notes[i].robot + "\"");
+      root.complain("robot", "two [[robot]] are for robot \"" + notes[i].robot + "\"");
       return;
     }
   }

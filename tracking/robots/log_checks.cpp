@@ -18,9 +18,9 @@ constexpr Question kDriver{"driver watched", "s",
 constexpr Question kEnd{"end of the robot's log", "s", "a node that died, a file that was cut"};
 constexpr Question kClock{"clock of the robot", "ms", "a robot that began earlier or later"};
 constexpr Question kLatency{"latency of the treads", "ms",
-                            "treads that act late, whatever their driver says"};
+                            "treads that react late, whatever their driver says"};
 constexpr Question kWay{"way of what was told", "% off",
-                        "treads of another speed, whatever their driver says"};
+                        "treads with another speed, whatever their driver says"};
 constexpr Question kMotion{"motion as commanded", "",
                            "logs or tags that were swapped, a robot that was held, a wrong start"};
 

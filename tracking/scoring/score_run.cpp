@@ -17,9 +17,9 @@ std::string length_text(double metres) {
   return metres < 1 ? fmt::format("{:.1f} mm", 1000 * metres) : fmt::format("{:.1f} m", metres);
 }
 
-constexpr Question kBorder{"border at the end", "mm", "a robot that may stand on the other side"};
+constexpr Question kBorder{"border at the end", "mm", "a robot that may be on the other side"};
 constexpr Question kPatches{"places of the patches", "",
-                            "colour patches that are not the mission's"};
+                            "colour patches that do not fit the mission"};
 
 /// A robot nearer to a border than this many sigmas may be on the other side.
 constexpr double kSigmas = 3;
@@ -31,7 +31,7 @@ std::optional<Error> misfit(const TrackedRun& run, const Mission& mission) {
   };
   if (!mission.arena.objects.empty() || std::holds_alternative<ObjectsOn>(mission.rule)) {
     return wrong(
-        "the mission has movable objects, which no camera of this program can track; "
+        "the mission has movable objects, which this program cannot track; "
         "score it by hand");
   }
   if (run.trajectory.robots != mission.robots) {

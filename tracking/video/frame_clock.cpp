@@ -86,7 +86,7 @@ Expected<Columns> columns_of(const std::vector<std::string>& names, std::string_
   for (std::size_t i = 0; i < names.size(); ++i) {
     auto& column = names[i] == "frame" ? frame : time;
     if (names[i] != "frame" && time_column(names[i]) == nullptr) continue;
-    if (column) return bad_times("column " + in_quotes(names[i]) + " is there twice", "line 1");
+    if (column) return bad_times("column " + in_quotes(names[i]) + " appears twice", "line 1");
     column = i;
   }
   if (frame && time) {
@@ -129,7 +129,7 @@ Expected<std::vector<double>> parse_frame_times(std::string_view text) {
     const auto frame = number_of<std::int64_t>(cells[columns->frame]);
     if (frame != static_cast<std::int64_t>(times.size())) {
       return bad_times(
-          fmt::format("frame {} is expected here, not {}: frames count from 0, without "
+          fmt::format("frame {} is expected here, not {}: frames are numbered from 0, without "
                       "gaps",
                       times.size(), in_quotes(cells[columns->frame])),
           where);
@@ -173,7 +173,7 @@ Expected<FrameClock> FrameClock::of(const SourceInfo& source,
   clock.name_ = source.name;
   if (sidecar) {
     if (is_in_milliseconds(*sidecar, source.frame_rate)) {
-      return bad_times(fmt::format("its times say {:.3g} s from frame to frame, and the video has "
+      return bad_times(fmt::format("its times are {:.3g} s from frame to frame, but the video has "
                                    "{:.4g} frames/s: are they milliseconds? Name the column "
                                    "`time_ms` then",
                                    mean_interval_s(*sidecar), source.frame_rate),
@@ -190,7 +190,7 @@ Expected<FrameClock> FrameClock::of(const SourceInfo& source,
     return clock;
   }
   return bad_times(
-      "its frames have no reliable times, and no constant rate agrees with their number; give the "
+      "its frames have no reliable times, and no constant rate fits their number; give the "
       "camera's frame times as a file with the columns `frame,time_s`",
       source.name);
 }
@@ -199,11 +199,11 @@ Expected<double> FrameClock::time_of(const Frame& frame) {
   std::optional<double> time = frame.time_s;
   if (source_ == TimeSource::Sidecar) {
     if (frame.number >= static_cast<std::int64_t>(sidecar_.size())) {
-      return Unexpected(
-          error_of(IssueCode::SidecarMismatch,
-                   fmt::format("frame {} is there, but the file of frame times ends with frame {}",
-                               frame.number, static_cast<std::int64_t>(sidecar_.size()) - 1),
-                   name_));
+      return Unexpected(error_of(
+          IssueCode::SidecarMismatch,
+          fmt::format("the video has a frame {}, but the file of frame times ends with frame {}",
+                      frame.number, static_cast<std::int64_t>(sidecar_.size()) - 1),
+          name_));
     }
     time = sidecar_[static_cast<std::size_t>(frame.number)];
   } else if (source_ == TimeSource::FrameRate) {

@@ -38,7 +38,7 @@ async function from_snapshot(path: string): Promise<Answer> {
   const key = path.replace(/([?&])width=[^&]*&?/, "$1").replace(/[?&]$/, "");
   const data = (await snapshot)[key];
   if (data === undefined)
-    throw new ApiError(404, "this file does not hold it: see it in the store with swarmsmith dashboard", key);
+    throw new ApiError(404, "this file does not contain it; open the store with swarmsmith dashboard", key);
   return { data, cost_ms: 0 };
 }
 
@@ -121,7 +121,7 @@ export async function ask(path: string, patience_ms = 65000, waits?: (pending: P
   let data: unknown;
   try {
     data = await (response.headers.get("Content-Type")?.includes("json") ? response.json() : response.text());
-  } catch { throw new ApiError(0, "the answer broke off", path); }
+  } catch { throw new ApiError(0, "the answer is incomplete", path); }
   const etag = response.headers.get("ETag");
   kept.delete(path);
   // An answer with only the new values (after=...) is never asked for again, so it is not kept.
@@ -202,8 +202,8 @@ class Feed {
 
 /// Another process answers at this address, so all kept answers belong to the previous one.
 function restarted(): void {
-  sessionStorage.setItem("notice", `Another process answers at this address since ${new Date().toLocaleTimeString("en-GB")}: `
-    + "this page was loaded again, and these are its numbers.");
+  sessionStorage.setItem("notice", `Another process has answered at this address since ${new Date().toLocaleTimeString("en-GB")}: `
+    + "the page was reloaded, and shows its numbers.");
   location.reload();
 }
 

@@ -19,7 +19,7 @@ const all: Page[] = [
   { pattern: ":c/:d/race/:iteration?", label: "Race", letter: "r", view: RacePage,
     keys: [["← → ↑ ↓", "move the cell in the matrix"], ["Enter", "watch the run of the cell"], ["Esc", "leave the cell"]] },
   { pattern: ":c/runs/:id", label: "Run", view: RunPage,
-    keys: [["space", "play or pause"], ["← →", "one second back or on"], [", .", "one cycle back or on"], ["[ ]", "slower or faster"],
+    keys: [["space", "play or pause"], ["← →", "one second back or forward"], [", .", "one cycle back or forward"], ["[ ]", "slower or faster"],
       ["Home End", "to the start or the end"]] },
   { pattern: ":c/:d/space", label: "Search space", letter: "p", view: Space },
   { pattern: ":c/:candidate", label: "Candidate", view: CandidatePage },

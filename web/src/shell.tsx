@@ -40,7 +40,7 @@ export function look_list(looks: Live["looks"], most: number) {
 
 /// The rate is measured over the last minute, so a process that has just begun has none.
 export function eta_of({ status }: Live, eta_s: number | null): string {
-  return eta_s !== null ? duration(eta_s) : status && status.uptime_s < 60 ? "not known yet" : "none: nothing moves";
+  return eta_s !== null ? duration(eta_s) : status && status.uptime_s < 60 ? "not known yet" : "none: no progress";
 }
 
 /// The campaign and design in the address, else those that most need attention.
@@ -85,7 +85,7 @@ function Connection() {
   if (live && failure.unreachable && !live.campaigns.some((one) => one.state === "running"))
     return <p class="banner" role="status">{live.campaigns.every((one) => one.state === "finished") ? "Finished" : "No campaign is running"}, and the process that served this page has ended. To open it again, run: <code>{command}</code></p>;
   return <p class="banner warn" role="status">{failure.unreachable
-    ? `No answer since ${at ? clock(at) : "the page was opened"}, trying again ${again_s > 0 ? `in ${again_s} s` : "now"}. The numbers below are old. If the process has ended, the command that began it goes on where it was, and this shows what there is: ${command}`
+    ? `No answer since ${at ? clock(at) : "the page was opened"}, trying again ${again_s > 0 ? `in ${again_s} s` : "now"}. The numbers below are old. If the process has ended, its command continues where it stopped; to see what is stored, run: ${command}`
     : `${failure.where && failure.where + ": "}${failure.message}`}</p>;
 }
 
@@ -175,7 +175,7 @@ export class Shell extends Component<{ pages: Page[] }, ShellState> {
     const { page, params } = this.#found();
     if (live) this.#place = place_in(current_route().path, live, this.#place);
     return <div>
-      <a class="skip" href="#main" onClick={(event) => { event.preventDefault(); document.getElementById("main")!.focus(); }}>To the page</a>
+      <a class="skip" href="#main" onClick={(event) => { event.preventDefault(); document.getElementById("main")!.focus(); }}>Skip to content</a>
       <Head live={live} />
       <nav class="nav" aria-label="pages"><ul>{pages.map((one) => {
         const path = one.letter && filled(one.pattern, this.#place);

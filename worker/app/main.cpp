@@ -254,13 +254,15 @@ int run_command_line(int argc, char** argv) {
       ->group("");
   where->require_option(1);
   app.add_option("--key", arguments.key,
-                 "Key file; default, if one is needed: SWARMSMITH_KEY, else worker.key in "
-                 "SWARMSMITH_KEYS or ~/.config/swarmsmith/keys")
+                 "Key file, if the coordinator needs one (default: SWARMSMITH_KEY, else worker.key "
+                 "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)")
       ->type_name("FILE");
   app.add_flag("--insecure-plaintext", arguments.insecure_plaintext,
                "Connect to a coordinator on another host without encryption");
-  app.add_option("--slots", arguments.slots,
-                 "Parallel evaluations; default SLURM_CPUS_PER_TASK, then the CPUs it may use")
+  app.add_option(
+         "--slots", arguments.slots,
+         "Parallel evaluations (default: SLURM_CPUS_PER_TASK, else the CPUs that this process "
+         "may use)")
       ->type_name("N")
       ->check(CLI::Range(1, static_cast<int>(kMaxSlots)));
   app.add_flag("--die-with-parent", arguments.die_with_parent,

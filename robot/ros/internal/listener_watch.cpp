@@ -139,8 +139,8 @@ void ListenerWatch::ask_master() {
     rivals[node] = rivals_[node];
     if (rivals[node] || place.empty() || !lives(place)) continue;  // already reported, or not alive
     rivals[node] = true;
-    on_trouble_(node + " publishes " + topic +
-                ", too: when it sends, the treads stand still, and no run is VALID");
+    on_trouble_(node + " also publishes " + topic +
+                ": when it sends, the treads stand still, and the run cannot be VALID");
   }
   rivals_ = std::move(rivals);
 }

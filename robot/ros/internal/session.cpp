@@ -38,19 +38,19 @@ bool resolves(const std::string& host) {
 
 constexpr const char* kAdvice =
     "set ROS_IP there to the host's own address (or ROS_HOSTNAME to a name that resolves "
-    "everywhere), and start it again";
+    "everywhere), and restart it";
 
 /// The reason why there are no messages from a node.
 std::string why_unreachable(const std::string& node, const std::string& topic) {
   const std::string begin =
-      "the master knows " + node + " as publisher of " + topic + ", but there is no connection: ";
+      "the master names " + node + " as publisher of " + topic + ", but there is no connection: ";
   XmlRpc::XmlRpcValue request;
   XmlRpc::XmlRpcValue response;
   XmlRpc::XmlRpcValue uri;
   request[0] = ros::this_node::getName();
   request[1] = node;
   if (!ros::master::execute("lookupNode", request, response, uri, false)) {
-    return begin + "the master does not know where it is";
+    return begin + "the master does not know its address";
   }
   std::string host;
   std::string port;
@@ -148,7 +148,8 @@ Expected<std::unique_ptr<Session>> Session::join(const std::string& name_space,
   const auto remappings = remappings_of(name_space, options);
   if (!remappings) return tl::unexpected(remappings.error());
   if (!first_session()) {
-    return unexpected(ErrorKind::Conflict, "this process has a ROS node, and can have one only");
+    return unexpected(ErrorKind::Conflict,
+                      "this process already has a ROS node, and can have only one");
   }
   std::uint32_t how = ros::init_options::NoSigintHandler | ros::init_options::NoRosout;
   if (unique_name) how |= ros::init_options::AnonymousName;
@@ -182,8 +183,8 @@ Expected<std::unique_ptr<Session>> Session::join(const std::string& name_space,
   });
   const std::string& own = ros::network::getHost();
   if (!resolves(own)) {
-    session->on_trouble_("other nodes look for this one at `" + own +
-                             "`, which does not even resolve here; set ROS_IP to this host's own "
+    session->on_trouble_("other nodes get for this one the address `" + own +
+                             "`, which does not resolve on this host; set ROS_IP to its own "
                              "address, and start it again",
                          false);
   }
@@ -251,7 +252,7 @@ void Session::look_for_unreachable() {
     }
   }
   if (!first.empty())
-    on_trouble_(first + (others.empty() ? "" : "; nor is there one to " + others), false);
+    on_trouble_(first + (others.empty() ? "" : "; the same for " + others), false);
   suspects_ = std::move(unreached);
 }
 

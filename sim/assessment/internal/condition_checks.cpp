@@ -77,7 +77,7 @@ std::string text_of(Rgb color) {
 std::string misread_floor(const ConditionTest& test, const FloorModel& floor) {
   if (test.trigger == Trigger::Always || test.trigger == Trigger::Readings) return {};
   if (!satisfies(test, test.wanted, floor)) {
-    return fmt::format("the flavour's numbers do not take the {} ({}) for it", test.floor,
+    return fmt::format("by the flavour's numbers the {} ({}) does not satisfy it", test.floor,
                        text_of(test.wanted));
   }
   std::vector<Rgb> colors = {test.arena.floor};
@@ -85,7 +85,7 @@ std::string misread_floor(const ConditionTest& test, const FloorModel& floor) {
     colors.push_back(patch.color);
   for (const Rgb& color : colors) {
     if (color == test.wanted || !satisfies(test, color, floor)) continue;
-    return fmt::format("the flavour's numbers also take the floor {} for it", text_of(color));
+    return fmt::format("by the flavour's numbers the floor {} also satisfies it", text_of(color));
   }
   return {};
 }
@@ -96,8 +96,9 @@ std::string note_about(const ConditionTest& test, const FloorRuns& runs, const F
   if (!misread.empty()) return misread;
   const FloorRun sum = sum_of(runs);
   if (sum.missed + sum.wrong > 0) {
-    return fmt::format("did not fire in {} cycles in which it had to, fired in {} without a reason",
-                       sum.missed, sum.wrong);
+    return fmt::format(
+        "did not fire in {} cycles in which it should, fired in {} in which it should not",
+        sum.missed, sum.wrong);
   }
   const auto untested = std::ranges::count_if(runs, std::not_fn(&FloorRun::is_tested));
   std::string note;
@@ -111,9 +112,8 @@ std::string note_about(const ConditionTest& test, const FloorRuns& runs, const F
                         sum.read, sum.over, test.floor);
   }
   if (sum.elsewhere > 0) {
-    note +=
-        fmt::format("{} of {} firings were over other floor that the ground sensor read for it; ",
-                    sum.elsewhere, sum.elsewhere + sum.fired_over);
+    note += fmt::format("{} of {} firings were over other floor, which the ground sensor misread; ",
+                        sum.elsewhere, sum.elsewhere + sum.fired_over);
   }
   if (!note.empty()) note.erase(note.size() - 2);
   return note;

@@ -80,8 +80,8 @@ Expected<std::vector<Field>> fields_of(std::span<const Token> tokens, Between be
 Expected<int> integer_of(const Field& field) {
   int number = 0;
   if (read_number(field.value.text, number)) return number;
-  return Unexpected(error_at(
-      field.value, quoted(field.name.text) + " wants an integer, not " + quoted(field.value.text)));
+  return Unexpected(error_at(field.value, quoted(field.name.text) + " must be an integer, not " +
+                                              quoted(field.value.text)));
 }
 
 Expected<int> integer_of(const Field& field, int low, int high) {

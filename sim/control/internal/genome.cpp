@@ -33,7 +33,7 @@ class GenomeReader {
       if (keyword.text == kGenomeEnd) {
         (void)take();
         if (!rest_.front().text.empty())
-          return Unexpected(error_at(rest_.front(), "expected the end behind `genomeend`"));
+          return Unexpected(error_at(rest_.front(), "expected the end after `genomeend`"));
         return network(keyword);
       }
       if (keyword.text == "trait") {
@@ -44,7 +44,7 @@ class GenomeReader {
       } else if (keyword.text == "gene") {
         error = read_gene();
       } else if (keyword.text.empty()) {
-        error = error_at(keyword, "the genome is not whole: `genomeend` is missing");
+        error = error_at(keyword, "the genome is incomplete: `genomeend` is missing");
       } else {
         error = error_at(keyword,
                          "a genome has lines trait, node and gene, not " + quoted(keyword.text));
@@ -68,7 +68,7 @@ class GenomeReader {
       const Token token = take();
       if (!read_number(token.text, value)) {
         return Unexpected(
-            error_at(token, quoted(owner) + " wants a number, not " + quoted(token.text)));
+            error_at(token, quoted(owner) + " must be a number, not " + quoted(token.text)));
       }
     }
     return values;
@@ -118,22 +118,22 @@ class GenomeReader {
       return Unexpected(error_at(
           end, "a genome of NEAT with " + std::to_string(hidden_) +
                    (hidden_ == 1 ? " hidden node" : " hidden nodes") +
-                   "; networks without a hidden layer are read, as EvoStick, CMA-ES and xNES make "
-                   "them"));
+                   "; only networks without a hidden layer can be read, as EvoStick, CMA-ES and "
+                   "xNES make them"));
     }
     const bool has_single_sensors = inputs_.size() == input_count(NetworkInputs::Rm11);
     Network network{.inputs = has_single_sensors ? NetworkInputs::Rm11 : NetworkInputs::Rm12,
                     .weights = {}};
     const std::size_t count = input_count(network.inputs);
     if (inputs_.size() != count) {
-      return Unexpected(error_at(end, "a genome of " + std::to_string(inputs_.size()) +
-                                          " inputs; those of rm1.2 and rm1.1 are read, which are " +
-                                          std::to_string(count) + " and " +
-                                          std::to_string(input_count(NetworkInputs::Rm11)) +
-                                          " with the bias"));
+      return Unexpected(error_at(
+          end, "a genome of " + std::to_string(inputs_.size()) +
+                   " inputs; only those of rm1.2 and rm1.1 can be read, with " +
+                   std::to_string(count) + " and " +
+                   std::to_string(input_count(NetworkInputs::Rm11)) + ", including the bias"));
     }
     if (!has_bias_)
-      return Unexpected(error_at(end, "the last input of the genome is not a bias, as in rm1.2"));
+      return Unexpected(error_at(end, "the last input of the genome must be a bias, as in rm1.2"));
     if (outputs_.size() != kWheels)
       return Unexpected(error_at(end, "a genome has 2 outputs, the left wheel and the right one"));
     network.weights.resize(kWheels * count);
@@ -145,7 +145,7 @@ class GenomeReader {
       if (!input || !output || gene.is_recurrent) {
         return Unexpected(error_at(
             gene.at, std::string("the genome has a ") + (gene.is_recurrent ? "recurrent " : "") +
-                         "gene " + name + ", and only genes from inputs to outputs are read"));
+                         "gene " + name + ", but only genes from inputs to outputs can be read"));
       }
       const std::size_t place = *output * count + *input;
       if (is_known[place])

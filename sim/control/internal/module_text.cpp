@@ -24,7 +24,7 @@ Expected<double> read_value(const ParameterSpec& parameter, const Field& field,
   double value = 0;
   if (parameter.type == ParameterSpec::Type::Real) {
     if (!read_number(field.value.text, value)) {
-      return Unexpected(error_at(field.value, quoted(field.name.text) + " wants a number, not " +
+      return Unexpected(error_at(field.value, quoted(field.name.text) + " must be a number, not " +
                                                   quoted(field.value.text)));
     }
   } else {

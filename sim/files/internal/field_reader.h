@@ -69,7 +69,7 @@ class FieldReader {
     TableReader* table = current();
     const auto texts = table == nullptr ? std::nullopt : table->texts(key);
     if (!texts) return;
-    if (texts->empty()) table->complain(key, "`" + std::string(key) + "` names no colour");
+    if (texts->empty()) table->complain(key, "`" + std::string(key) + "` must name a colour");
     colors.clear();
     for (const std::string& text : *texts) {
       const auto color = parse_color(text);
@@ -204,7 +204,7 @@ class FieldReader {
                                number_text(limits.most));
     } else if (read.size() > most) {
       table->complain(key, "`" + std::string(key) + "` has " + std::to_string(read.size()) + " " +
-                               what + "; at most " + std::to_string(most) + " are taken");
+                               what + "; at most " + std::to_string(most) + " are allowed");
     } else {
       list = std::move(read);
     }
@@ -233,8 +233,8 @@ class FieldReader {
     if (!range) return true;
     if (range->least > range->most) {
       table.complain(key, "the ends of the range `" + field +
-                              "` are exchanged: " + number_text(range->least) + " is more than " +
-                              number_text(range->most));
+                              "` are in the wrong order: " + number_text(range->least) +
+                              " is more than " + number_text(range->most));
     } else if (!limits.contain(range->least) || !limits.contain(range->most)) {
       table.complain(key, "the range `" + field + "` must be within " + number_text(limits.least) +
                               " and " + number_text(limits.most));

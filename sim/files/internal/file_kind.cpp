@@ -64,8 +64,8 @@ bool has_line(std::string_view text, std::initializer_list<std::string_view> beg
 std::string kind_of_markup(std::string_view text) {
   if (contains(text, "<svg")) return "a picture (SVG)";
   if (contains(text, "<argos-configuration")) {
-    return "an experiment of ARGoS; its machine is the value of `fsm-config` or `bt-config`, which "
-           "can be put into a file";
+    return "an experiment of ARGoS; put its machine, the value of `fsm-config` or `bt-config`, "
+           "into a file";
   }
   return contains(text, "<html") ? "a web page" : "XML";
 }
@@ -96,7 +96,7 @@ std::optional<std::string> foreign_kind(std::string_view bytes) {
     if (bytes.starts_with(beginning)) return std::string(kind);
   }
   constexpr std::size_t kLooked = 4096;
-  if (bytes.substr(0, kLooked).find('\0') != std::string_view::npos) return "no text";
+  if (bytes.substr(0, kLooked).find('\0') != std::string_view::npos) return "a binary file";
   const std::string_view line = first_line(bytes);
   if (line.empty()) return std::nullopt;
   if (line.front() == '<') return kind_of_markup(bytes);

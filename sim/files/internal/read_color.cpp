@@ -30,7 +30,7 @@ std::vector<std::pair<std::string, Rgb>> read_color_keys(TableReader& table) {
       continue;
     }
     if (!by_name.try_emplace(color_text(*color), key, *color).second) {
-      table.complain(key, "the colour " + color_text(*color) + " is there twice");
+      table.complain(key, "the colour " + color_text(*color) + " is given twice");
     }
   }
   std::vector<std::pair<std::string, Rgb>> keys;

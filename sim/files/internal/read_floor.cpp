@@ -82,7 +82,7 @@ ShuffledPatches read_shuffled(TableReader& table) {
   }
   if (patches > shuffled.places.size()) {
     table.complain("colors", "`colors` asks for " + std::to_string(patches) +
-                                 " patches, `places` has " +
+                                 " patches, but `places` has " +
                                  std::to_string(shuffled.places.size()));
   }
   table.finish();

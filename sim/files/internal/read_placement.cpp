@@ -33,7 +33,7 @@ PlaceAt read_poses(TableReader& training) {
   }
   if (!training.has("poses")) {
     training.complain("poses",
-                      "placement = \"fixed\" needs `poses`, one a robot, such as "
+                      "placement = \"fixed\" needs `poses`, one per robot, such as "
                       "[ { x = 0, y = 0, angle = 90 } ]");
   }
   return fixed;

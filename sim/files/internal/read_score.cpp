@@ -68,7 +68,7 @@ class ScoreReader {
       value.push_back({color, reward.value_or(0)});
     }
     if (value.empty()) {
-      table_.complain(field.key, "`" + std::string(field.key) + "` names no colour");
+      table_.complain(field.key, "`" + std::string(field.key) + "` must name a colour");
     }
   }
 
@@ -107,7 +107,7 @@ std::optional<ScoreRule> read_score(TableReader& score) {
   // For users who know examples from the literature; only true is allowed.
   if (score.boolean("maximize") == false) {
     score.complain("maximize",
-                   "scores are always maximised; give unwanted things a negative weight, as "
+                   "scores are always maximised; give what is unwanted a negative weight, as "
                    "color_reward can, instead of `maximize = false`");
   }
   score.finish();

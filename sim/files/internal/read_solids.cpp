@@ -59,18 +59,18 @@ std::optional<Outline> read_polygon(TableReader& table, Pose* pose) {
   if (!flaw && signed_area(corners) < 0) std::reverse(corners.begin() + 1, corners.end());
   if (!flaw && !is_convex(corners)) {
     flaw = "it is not convex";
-    if (pose != nullptr) *flaw += "; put it together from several that are";
+    if (pose != nullptr) *flaw += "; build it from several convex ones";
   }
   if (!flaw && corners.size() > kMostCorners) {
     flaw = std::to_string(corners.size()) + " corners; at most " + std::to_string(kMostCorners) +
-           " are taken";
+           " are allowed";
   }
   if (!flaw && pose == nullptr && !is_centred(corners)) {
     const Point middle = centroid(corners);
     flaw = "its centre of mass is [" + micrometres_text(middle.x) + ", " +
            micrometres_text(middle.y) +
-           "], and a robot's must be at [0, 0]; measure its corners, and all else of it, from "
-           "there";
+           "], but a robot's must be at [0, 0]; give its corners, and all other places on it, "
+           "relative to that point";
   }
   if (flaw) {
     table.complain("corners", std::string("this polygon cannot be ") +
@@ -106,7 +106,7 @@ ShapeKeys keys_of(const Outline& outline) {
 /// The box with the sizes that the table gives.
 std::optional<Outline> read_changed_box(TableReader& table, Limits<double> size, BoxOutline box) {
   if (table.has("side") && (table.has("length") || table.has("width"))) {
-    table.complain("side", "`side` is the length and the width; leave out `side`, or the others");
+    table.complain("side", "`side` is both length and width; leave out `side`, or the others");
     for (const char* key : {"side", "length", "width"})
       table.take(key);
     return std::nullopt;

@@ -51,7 +51,7 @@ std::optional<double> read_inradius(TableReader& arena, int sides) {
   const auto inradius = arena.number("inradius", {0.05, 100});
   const auto area = arena.number("area", kArea);
   if (inradius && area) {
-    arena.complain("inradius", "`area` and `inradius` say the same; give one of them");
+    arena.complain("inradius", "`area` and `inradius` define the same size; give only one of them");
     return std::nullopt;
   }
   return area ? inradius_of_area(sides, *area) : inradius;
@@ -60,7 +60,7 @@ std::optional<double> read_inradius(TableReader& arena, int sides) {
 /// Reads `corners = [[x, y], ...]`, or `walls = [[x1, y1, x2, y2], ...]` that join.
 std::vector<Point> read_polygon(TableReader& arena) {
   if (arena.has("corners") == arena.has("walls")) {
-    arena.complain("walls", "shape = \"polygon\" needs `corners` or `walls`, one of them");
+    arena.complain("walls", "shape = \"polygon\" needs either `corners` or `walls`");
     arena.take("corners");
     arena.take("walls");
     return {};
@@ -86,11 +86,12 @@ std::vector<Point> read_polygon(TableReader& arena) {
   if (corners.empty()) return {};
   if (corners.size() > kMostWallCorners) {
     arena.complain(key, "`" + key + "` has " + std::to_string(corners.size()) +
-                            " corners; at most " + std::to_string(kMostWallCorners) + " are taken");
+                            " corners; at most " + std::to_string(kMostWallCorners) +
+                            " are allowed");
     return {};
   }
   if (const auto flaw = flaw_of(corners)) {
-    arena.complain(key, "these walls make no arena: " + *flaw);
+    arena.complain(key, "these walls do not make an arena: " + *flaw);
     return {};
   }
   return corners;

@@ -21,7 +21,7 @@ struct ColorReward {
   template <class Rule, class Visitor>
   static void fields(Rule& rule, Visitor& field) {
     field({.key = "rewards",
-           .meaning = "of a robot on floor of each colour; other colours count 0",
+           .meaning = "reward for a robot on floor of each colour; 0 on other colours",
            .required = true},
           rule.rewards);
     field(kAtField, rule.at);

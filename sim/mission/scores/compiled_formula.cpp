@@ -51,12 +51,12 @@ std::optional<std::string> forbidden_sign(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char sign = text[i];
     if (sign == '^') return at(i) + ": there is no `^`; write x * x, or pow(x, 3)";
-    if (sign == '"' || sign == ';') return at(i) + fmt::format(": `{}` has no place here", sign);
+    if (sign == '"' || sign == ';') return at(i) + fmt::format(": `{}` is not allowed here", sign);
     if (sign == '=') {
       const bool compares =
           (i > 0 && std::string_view("=<>!").find(text[i - 1]) != std::string_view::npos) ||
           (i + 1 < text.size() && text[i + 1] == '=');
-      if (!compares) return at(i) + ": `=` gives no value; `==` compares";
+      if (!compares) return at(i) + ": `=` is not allowed; use `==` to compare";
     }
   }
   return std::nullopt;
@@ -87,14 +87,14 @@ std::string message_of(const mu::Parser::exception_type& error,
   if (code == mu::ecMISSING_PARENS) return "a `)` is missing";
   if (code == mu::ecUNEXPECTED_EOF) return "it ends too early";
   if (code == mu::ecEMPTY_EXPRESSION) return "it is empty";
-  if (code == mu::ecMISSING_ELSE_CLAUSE) return "a `?` lacks its `:`";
+  if (code == mu::ecMISSING_ELSE_CLAUSE) return "a `?` has no `:`";
   const std::string token = token_of(error);
   const std::string where = fmt::format("at character {}: ", error.GetPos() + 1);
   if (code == mu::ecUNASSIGNABLE_TOKEN) return where + unknown_name(token, names);
-  if (code == mu::ecTOO_FEW_PARAMS) return where + fmt::format("`{}` wants more values", token);
-  if (code == mu::ecTOO_MANY_PARAMS) return where + fmt::format("`{}` wants fewer values", token);
+  if (code == mu::ecTOO_FEW_PARAMS) return where + fmt::format("`{}` needs more values", token);
+  if (code == mu::ecTOO_MANY_PARAMS) return where + fmt::format("`{}` needs fewer values", token);
   if (error.GetPos() < 0 || token.empty()) return "it cannot be read";
-  return where + fmt::format("`{}` has no place here", token);
+  return where + fmt::format("`{}` is not allowed here", token);
 }
 
 }  // namespace

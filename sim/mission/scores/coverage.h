@@ -21,9 +21,13 @@ struct Coverage {
 
   template <class Rule, class Visitor>
   static void fields(Rule& rule, Visitor& field) {
-    field({.key = "tiles", .meaning = "along each side of the square", .least = 1, .most = 1000},
+    field({.key = "tiles",
+           .meaning = "number of tiles along each side of the square",
+           .least = 1,
+           .most = 1000},
           rule.tiles);
-    field({.key = "side", .meaning = "of the square, m", .least = 0.01, .most = 1000}, rule.side_m);
+    field({.key = "side", .meaning = "side of the square, m", .least = 0.01, .most = 1000},
+          rule.side_m);
   }
   static std::string unit() { return "cycles"; }
   friend bool operator==(const Coverage&, const Coverage&) = default;

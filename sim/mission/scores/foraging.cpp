@@ -6,7 +6,7 @@ namespace swarmsmith {
 
 std::optional<ScoreFault> Foraging::fault() const {
   if (nest != source) return std::nullopt;
-  return ScoreFault{"source", "is the nest's colour: nothing could be brought anywhere"};
+  return ScoreFault{"source", "is also the nest's colour; choose different colours"};
 }
 
 ForagingScorer::ForagingScorer(const Foraging& rule, Arena arena)

@@ -23,8 +23,10 @@ struct Foraging {
 
   template <class Rule, class Visitor>
   static void fields(Rule& rule, Visitor& field) {
-    field({.key = "nest", .meaning = "of the floor where a robot leaves its item"}, rule.nest);
-    field({.key = "source", .meaning = "of the floor where a robot takes an item"}, rule.source);
+    field({.key = "nest", .meaning = "colour of the floor where a robot leaves its item"},
+          rule.nest);
+    field({.key = "source", .meaning = "colour of the floor where a robot takes an item"},
+          rule.source);
   }
   static std::string unit() { return "items"; }
   std::optional<ScoreFault> fault() const;

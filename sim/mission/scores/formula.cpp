@@ -92,7 +92,7 @@ std::optional<ScoreFault> Formula::fault() const {
   const std::string_view other = of == "swarm" ? "robots" : "swarm";
   const bool would_do = !CompiledFormula::fault(value, names_for(other));
   return ScoreFault{"value",
-                    "cannot be worked out: " + *what +
+                    "cannot be computed: " + *what +
                         (would_do ? "; with of = \"" + std::string(other) + "\" it could be" : "")};
 }
 

@@ -34,11 +34,12 @@ struct Formula {
            .required = true},
           rule.value);
     field({.key = "of",
-           .meaning = "what it is computed for: each robot, each movable object, or once",
+           .meaning =
+               "what it is computed for: each robot, each movable object, or once for the swarm",
            .choices = kFormulaSubjects},
           rule.of);
     field({.key = "over",
-           .meaning = "how the values of one instant become one",
+           .meaning = "how the values of one instant are combined into one",
            .choices = kFormulaFolds},
           rule.over);
     field(kAtField, rule.at);

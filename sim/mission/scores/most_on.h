@@ -25,7 +25,9 @@ struct MostOn {
 
   template <class Rule, class Visitor>
   static void fields(Rule& rule, Visitor& field) {
-    field({.key = "color", .meaning = "of the spots; the fullest one counts", .required = true},
+    field({.key = "color",
+           .meaning = "colour of the spots; the spot with the most robots counts",
+           .required = true},
           rule.color);
     field(kAtField, rule.at);
     field({.key = "share", .meaning = "whether the score is divided by the number of robots"},

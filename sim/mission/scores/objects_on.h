@@ -18,7 +18,7 @@ struct ObjectsOn {
 
   template <class Rule, class Visitor>
   static void fields(Rule& rule, Visitor& field) {
-    field({.key = "color", .meaning = "of the floor where objects count", .required = true},
+    field({.key = "color", .meaning = "colour of the floor where objects count", .required = true},
           rule.color);
     field(kAtField, rule.at);
   }

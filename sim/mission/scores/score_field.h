@@ -70,7 +70,7 @@ inline std::string summed_unit(std::string_view counted, When at) {
 /// The parameter `at` of the kinds that have it.
 inline constexpr ScoreField kAtField{
     .key = "at",
-    .meaning = R"(`"end"`: as it is at the last instant; `"sum"`: summed over all instants)"};
+    .meaning = R"(`"end"`: the value at the last instant; `"sum"`: the sum over all instants)"};
 
 /// The reward for standing on a colour.
 struct Reward {

@@ -124,14 +124,14 @@ const Mistake kMistakes[] = {
     {"RewardTwice",
      {.mission = "name = \"x\"\nscore = { kind = \"color_reward\", "
                  "rewards = { red = 1, \"#ff0000\" = 2 } }\n"},
-     "is there twice"},
+     "is given twice"},
     {"RewardOfNoColor",
      {.mission =
           "name = \"x\"\nscore = { kind = \"color_reward\", rewards = { pink = 1 , red = 1} }\n"},
      "in/x.toml:5:53: there is no colour \"pink\""},
     {"NoRewards",
      {.mission = "name = \"x\"\nscore = { kind = \"color_reward\", rewards = {} }\n"},
-     "in/x.toml:5:44: `rewards` names no colour"},
+     "in/x.toml:5:44: `rewards` must name a colour"},
     {"TestCount",
      {.mission = "name = \"aggregation\"\ninstances = { test = { count = -1 } }\n"},
      "in/x.toml:5:32: `count` must be from 0 to 99999"},

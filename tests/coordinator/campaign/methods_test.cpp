@@ -256,7 +256,7 @@ TEST(Methods, ThatSeeLightWantARobotWhoseSensorsGiveWhatTheyTake) {
   EXPECT_THAT(complaints_of("rvr", "lux", "chocolate"), IsEmpty());
   EXPECT_THAT(complaints_of("rvr", "strength", "watermelon"), IsEmpty());  // which sees no light
   EXPECT_THAT(complaints_of("rvr", "strength", "chocolate"),
-              ElementsAre(HasSubstr("takes lux from light sensors, and the robot `rvr` gives "
+              ElementsAre(HasSubstr("takes lux from light sensors, but the robot `rvr` gives "
                                     "strengths; choose another flavour")));
   EXPECT_THAT(complaints_of("epuck", "strength", "chocolate-epuck"), IsEmpty());
 }
@@ -276,7 +276,7 @@ TEST(Methods, OfSingleSensorsWantARobotThatHasThemAll) {
   EXPECT_THAT(complaints_of("[0, 180]", ""), IsEmpty());
   const std::string why =
       "mission \"aggregation\": a network with the inputs rm1.1 reads the strengths of 8 "
-      "proximity and 8 light sensors, and the robot `epuck` has 8 and 2; choose other inputs, or a "
+      "proximity and 8 light sensors, but the robot `epuck` has 8 and 2; choose other inputs, or a "
       "mission of another robot";
   EXPECT_THAT(complaints_of("[0, 180]", network), ElementsAre(HasSubstr(why)));
   std::string weights = "0";

@@ -114,9 +114,9 @@ TEST_F(FindCoordinator, TakesTheKeyOfTheRoleOrTheOneThatIsNamed) {
 
 TEST_F(FindCoordinator, RefusesAKeyOfAnotherCoordinator) {
   write(kFar, make_key_pair().public_key);
-  EXPECT_THAT(found({.file = file}), HasSubstr("belongs to another coordinator"));
+  EXPECT_THAT(found({.file = file}), HasSubstr("is for another coordinator"));
   EXPECT_THAT(found({.file = file, .insecure_plaintext = true}),
-              HasSubstr("belongs to another coordinator"));
+              HasSubstr("is for another coordinator"));
 }
 
 TEST_F(FindCoordinator, SaysWhatIsMissing) {

@@ -220,7 +220,7 @@ TEST(NodeLoop, DoesNotBeginARunWhoseLogIsThereAlready) {
   ASSERT_TRUE(outside.until_phase(Phase::Ready));
   outside.send(outside.order(Order::Kind::Start));
   ASSERT_TRUE(outside.until([](const NodeState& state) { return !state.refused.empty(); }));
-  EXPECT_THAT(outside.state.refused, HasSubstr("run07.rvr1.log.csv: it is there already"));
+  EXPECT_THAT(outside.state.refused, HasSubstr("run07.rvr1.log.csv: already exists"));
   EXPECT_EQ(outside.state.phase, Phase::Idle);
   EXPECT_EQ(whole_file(folder / "run07.rvr1.log.csv"), "precious");
   EXPECT_TRUE(outside.start(1, "run08"));
@@ -256,7 +256,7 @@ TEST(NodeLoop, OverAWireRefusesOrdersThatAreOldRepeatedOrForeign) {
   EXPECT_TRUE(refused("before"));
   Order stop = outside.order(Order::Kind::Stop, "run06");
   outside.send(stop);
-  EXPECT_TRUE(refused("the run run07 is on, not run06"));
+  EXPECT_TRUE(refused("the run run07 is in progress, not run06"));
   EXPECT_EQ(outside.state.phase, Phase::Running);
   outside.send(outside.order(Order::Kind::Stop));
   ASSERT_TRUE(outside.until_phase(Phase::Stopped));
@@ -319,7 +319,7 @@ TEST(NodeLoop, InLockStepEndsWhenTheWorldIsGone) {
   swarm.world().send(0, senses);
   node.join();
   EXPECT_EQ(node.ending, NodeLoop::Ending::Lost);
-  EXPECT_THAT(node.notes, ElementsAre(HasSubstr("the world is silent")));
+  EXPECT_THAT(node.notes, ElementsAre(HasSubstr("no message from the world")));
 }
 
 }  // namespace

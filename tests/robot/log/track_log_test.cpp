@@ -72,7 +72,7 @@ TEST(TrackLogTest, TakesARecordingThatGoesOn) {
       value_of(camera_clock_of("frame,time_s,clock_s\n0,0.0,10.0\n1,3.0,13.0\n2,3.03,1", "t"));
   EXPECT_EQ(clock.last_clock_s, 13.0);
   EXPECT_THAT(camera_clock_of("frame,time_s,clock_s\n0,0.0", "t.csv").error().message,
-              HasSubstr("no frame in it yet"));
+              HasSubstr("it has no frame yet"));
 }
 
 TEST(TrackLogTest, FrameTimesWithoutAClockSayWhatToDo) {
@@ -103,7 +103,7 @@ TEST(TrackLogTest, LeavesOutAStartThatTheVideoCannotHaveSeen) {
   StartedRun unfilmed = run07();
   unfilmed.video.clear();
   const TrackLog none = track_log_of(unfilmed, std::nullopt);
-  EXPECT_THAT(none.warnings, ElementsAre(HasSubstr("no video was named")));
+  EXPECT_THAT(none.warnings, ElementsAre(HasSubstr("no video was given")));
   EXPECT_THAT(none.text, Not(HasSubstr("[[video]]")));
 }
 

@@ -140,13 +140,14 @@ TEST(DriverWatch, ADriverMayRoundToACentimetreASecond) {
 TEST(DriverWatch, ASilentDriverEndsTheRun) {
   DrivenRobot robot;
   robot.run_with([](DrivenRobot&) {});
-  expect_invalid(robot, "driver: driver does not say what the treads do (for 1.10 s, since 5.0 s)");
+  expect_invalid(robot,
+                 "driver: driver does not report what the treads do (for 1.10 s, since 5.0 s)");
 }
 
 TEST(DriverWatch, ADeadDriverEndsTheRun) {
   DrivenRobot robot;
   robot.run_with([](DrivenRobot& of) { of.listeners = [] { return std::vector<Listener>(); }; });
-  expect_invalid(robot, "driver is gone: no driver listens to the speeds of the treads");
+  expect_invalid(robot, "driver has disconnected: no driver listens to the speeds of the treads");
 }
 
 TEST(DriverWatch, AReplacedDriverEndsTheRun) {
@@ -161,7 +162,7 @@ TEST(DriverWatch, ASecondDriverEndsTheRun) {
     of.say(of.treads.left_mps, of.treads.right_mps);
     of.say(of.treads.left_mps, of.treads.right_mps, "other");
   });
-  expect_invalid(robot, "other drives the treads, too, beside driver");
+  expect_invalid(robot, "other also drives the treads, besides driver");
 }
 
 TEST(DriverWatch, SpeedsOfAnotherOneEndTheRun) {
@@ -170,7 +171,7 @@ TEST(DriverWatch, SpeedsOfAnotherOneEndTheRun) {
     of.say(of.treads.left_mps, of.treads.right_mps);
     of.node.driver().hear(RivalMessage{{of.clock, 0}, "/teleop"});
   });
-  expect_invalid(robot, "/teleop commands the treads, too");
+  expect_invalid(robot, "/teleop also commands the treads");
 }
 
 TEST(DriverWatch, OneSpeedOfAnotherOneDegradesTheRun) {
@@ -182,13 +183,13 @@ TEST(DriverWatch, OneSpeedOfAnotherOneDegradesTheRun) {
   });
   EXPECT_EQ(robot.state().phase, Phase::Ended);
   EXPECT_EQ(robot.state().verdict, RunVerdict::Degraded);
-  EXPECT_THAT(robot.state().reasons[0], HasSubstr("driver: /teleop commands the treads, too"));
+  EXPECT_THAT(robot.state().reasons[0], HasSubstr("driver: /teleop also commands the treads"));
 }
 
 TEST(DriverWatch, ADriverThatObeysAnotherOneEndsTheRun) {
   DrivenRobot robot;
   robot.run_with([](DrivenRobot& of) { of.say(0.17, 0.11); });
-  expect_invalid(robot, "it obeys another one");
+  expect_invalid(robot, "it follows other commands");
 }
 
 TEST(DriverWatch, ADriverThatHoldsTheTreadsEndsTheRun) {
@@ -198,7 +199,7 @@ TEST(DriverWatch, ADriverThatHoldsTheTreadsEndsTheRun) {
     of.say(0, 0);
   });
   // While the node holds them, too, they agree for a moment; it tries a few times.
-  expect_invalid(robot, "driver says that they do 0 and 0 m/s, and 0.3", false);
+  expect_invalid(robot, "driver reports 0 and 0 m/s, and 0.3", false);
 }
 
 TEST(DriverWatch, ADriverOfOneTreadEndsTheRun) {
@@ -219,7 +220,7 @@ TEST(DriverWatch, ADriverThatStopsForAMomentDegradesTheRun) {
   });
   EXPECT_EQ(robot.state().phase, Phase::Ended);
   EXPECT_EQ(robot.state().verdict, RunVerdict::Degraded);
-  EXPECT_THAT(robot.state().reasons[0], HasSubstr("it holds them"));
+  EXPECT_THAT(robot.state().reasons[0], HasSubstr("it stopped them"));
 }
 
 TEST(DriverWatch, ASlowDriverEndsTheRun) {
@@ -341,7 +342,7 @@ TEST(DriverWatch, ADriverThatDoesNotDoWhatIsCommandedForAMomentIsFound) {
     EXPECT_LE(stuck.cycle, 360) << period;
     EXPECT_LE(stuck.held, 330) << period;
     EXPECT_THAT(stuck.trouble->what,
-                HasSubstr("does not do 0.3 and -0.3 m/s, which was commanded "));
+                HasSubstr("ignored the command 0.3 and -0.3 m/s, which was given "));
   }
 }
 
@@ -369,7 +370,8 @@ TEST(DriverWatch, WithoutADriverThatSaysWhatItDoesNoRunIsValid) {
   robot.run_with(nothing, nothing);
   EXPECT_EQ(robot.state().phase, Phase::Ended);
   EXPECT_EQ(robot.state().verdict, RunVerdict::Degraded);
-  EXPECT_THAT(robot.state().reasons, ElementsAre(HasSubstr("no driver says what the treads do")));
+  EXPECT_THAT(robot.state().reasons,
+              ElementsAre(HasSubstr("no driver reports what the treads do")));
 
   DrivenRobot dead;
   dead.run_with([](DrivenRobot& of) { of.listeners = [] { return std::vector<Listener>(); }; },
@@ -381,14 +383,14 @@ TEST(DriverWatch, WithoutADriverThatSaysWhatItDoesNoRunIsValid) {
         of.listeners = [at = of.fault_at] { return std::vector<Listener>{{"driver", at, false}}; };
       },
       nothing);
-  expect_invalid(hung, "driver gives no sign of life", false);
+  expect_invalid(hung, "driver does not respond", false);
   DrivenRobot replaced;
   replaced.run_with(
       [](DrivenRobot& of) {
         of.listeners = [&of] { return std::vector<Listener>{{"other", of.clock, false}}; };
       },
       nothing);
-  expect_invalid(replaced, "another one came in place of the driver: other");
+  expect_invalid(replaced, "the driver was replaced by other");
 }
 
 TEST(DriverWatch, SaysBeforeARunWhatIsWrong) {
@@ -400,12 +402,12 @@ TEST(DriverWatch, SaysBeforeARunWhatIsWrong) {
   watch.hear(DrivenMessage{{now, 0}, 0, 0, "driver"});
   EXPECT_THAT(watch.not_ready(now), IsEmpty());
   EXPECT_THAT(watch.not_ready(now + milliseconds(1500)),
-              ElementsAre("driver: driver has not said what the treads do for 1.5 s"));
+              ElementsAre("driver: driver has not reported what the treads do for 1.5 s"));
   watch.hear(DrivenMessage{{now, 0}, 0, 0, "other"});
   EXPECT_THAT(watch.not_ready(now), ElementsAre(HasSubstr("both say that they drive")));
   watch.hear(RivalMessage{{now, 0}, "/teleop"});
   EXPECT_THAT(watch.not_ready(now),
-              ElementsAre(HasSubstr("both"), HasSubstr("/teleop commands the treads, too")));
+              ElementsAre(HasSubstr("both"), HasSubstr("/teleop also commands the treads")));
 }
 
 /// Changes are remembered for three seconds: with more patience than that, none of them is late.

@@ -41,7 +41,7 @@ TEST(Feeds, TakeAMissingSensorForSilenceAndNameIt) {
   EXPECT_EQ(feeds.trouble(Feed::Proximity), "");
   EXPECT_EQ(feeds.age(Feed::Proximity, TimePoint(milliseconds(200))), milliseconds(0));
   feeds.hear(RangesMessage{at_ms(300), {0.1, 0.2}});
-  EXPECT_THAT(feeds.trouble(Feed::Proximity), testing::HasSubstr("8 values wanted, 2 came"));
+  EXPECT_THAT(feeds.trouble(Feed::Proximity), testing::HasSubstr("expected 8 values, got 2"));
   broken[3] = -0.3;
   feeds.hear(RangesMessage{at_ms(300), broken});
   EXPECT_THAT(feeds.trouble(Feed::Proximity), testing::HasSubstr("negative"));

@@ -86,7 +86,7 @@ TEST(RobotNode, TakesAnotherStartAfterARunAndEachNameOnce) {
   robot.cycles(12);
   ASSERT_EQ(robot.state().phase, Phase::Ended);
   robot.node.hear(robot.order(Order::Kind::Start), robot.now());
-  EXPECT_THAT(robot.state().refused, HasSubstr("was here before"));
+  EXPECT_THAT(robot.state().refused, HasSubstr("has already had a run"));
   EXPECT_EQ(robot.state().phase, Phase::Ended);
   robot.run = "run08";
   Order order = robot.order(Order::Kind::Start);
@@ -128,12 +128,12 @@ TEST(RobotNode, RefusesStartsThatAreOldRepeatedForOthersOrAtTheWrongTime) {
   robot.node.hear(order, robot.now());
   EXPECT_EQ(robot.state().phase, Phase::Armed);
   robot.node.hear(order, robot.now());
-  EXPECT_THAT(robot.state().refused, HasSubstr("given before"));
+  EXPECT_THAT(robot.state().refused, HasSubstr("came before"));
   EXPECT_EQ(robot.state().phase, Phase::Armed);
   order = robot.order(Order::Kind::Start);
   order.run = "run09";
   robot.node.hear(order, robot.now());
-  EXPECT_THAT(robot.state().refused, HasSubstr("the run run07 is on"));
+  EXPECT_THAT(robot.state().refused, HasSubstr("the run run07 is in progress"));
 }
 
 TEST(RobotNode, StopsByOrderOfItsRunAndOfNoOther) {
@@ -145,7 +145,7 @@ TEST(RobotNode, StopsByOrderOfItsRunAndOfNoOther) {
   order.run = "run06";
   robot.node.hear(order, robot.now());
   EXPECT_EQ(robot.state().phase, Phase::Running);
-  EXPECT_THAT(robot.state().refused, HasSubstr("the run run07 is on"));
+  EXPECT_THAT(robot.state().refused, HasSubstr("the run run07 is in progress"));
   order = robot.order(Order::Kind::Stop);
   order.sent_unix_s -= 100;  // an old stop stops as well
   robot.node.hear(order, robot.now());
@@ -155,7 +155,7 @@ TEST(RobotNode, StopsByOrderOfItsRunAndOfNoOther) {
   EXPECT_EQ(robot.state().verdict, RunVerdict::Invalid);
   EXPECT_THAT(robot.state().reasons, ElementsAre("stopped by order after 2.0 s of 30.0 s"));
   robot.node.hear(robot.order(Order::Kind::Stop), robot.now());
-  EXPECT_EQ(robot.state().refused, "no run is on");
+  EXPECT_EQ(robot.state().refused, "no run is in progress");
 }
 
 TEST(RobotNode, AKillIsForGood) {
@@ -300,7 +300,7 @@ TEST(RobotNode, EndsTheRunWhenTheOperatorIsGone) {
   robot.cycle();
   EXPECT_EQ(robot.state().phase, Phase::Failed);
   EXPECT_EQ(robot.speed(), 0);
-  EXPECT_EQ(robot.state().reasons[0], "the operator is silent for 1.10 s");
+  EXPECT_EQ(robot.state().reasons[0], "no message from the operator for 1.10 s");
   BenchRobot alone({.operator_gone = Duration::zero()});
   alone.alive = false;
   alone.start();
@@ -317,7 +317,7 @@ TEST(RobotNode, StandsStillWithinHalfASecondOfItsOperatorsSilence) {
   EXPECT_GT(robot.speed(), 0);
   robot.cycle();  // 400 ms
   EXPECT_EQ(robot.speed(), 0);
-  EXPECT_EQ(robot.rows.back().event, "the operator is silent for 0.40 s");
+  EXPECT_EQ(robot.rows.back().event, "no message from the operator for 0.40 s");
   EXPECT_EQ(robot.state().phase, Phase::Running);
   robot.alive = true;
   robot.cycle();
@@ -382,7 +382,7 @@ TEST(RobotNode, WantsABatteryAndADriver) {
   robot.cycle();
   robot.node.driver().set_listeners({}, robot.clock);
   EXPECT_THAT(robot.state().not_ready,
-              ElementsAre(HasSubstr("driver"), "battery: 15 %, at least 20 % are wanted"));
+              ElementsAre(HasSubstr("driver"), "battery: 15 %, at least 20 % are needed"));
   robot.node.hear(BatteryMessage{.charge = 0.8});
   robot.node.hear(BatteryMessage{.charge = std::nan("")});
   robot.cycle();
@@ -413,7 +413,7 @@ TEST(RobotNode, FailsAfterARunWhoseLogIsNotWhole) {
   EXPECT_EQ(robot.state().phase, Phase::Ended);
   robot.node.lose_log();
   EXPECT_EQ(robot.state().phase, Phase::Failed);
-  EXPECT_THAT(robot.state().reasons, ElementsAre("the log is not whole: no space left on device"));
+  EXPECT_THAT(robot.state().reasons, ElementsAre("the log is incomplete: no space left on device"));
   robot.run = "run08";
   robot.node.hear(robot.order(Order::Kind::Start), robot.now());
   EXPECT_THAT(robot.state().refused, HasSubstr("log: no space left"));
@@ -423,7 +423,7 @@ TEST(RobotNode, DoesNotBeginWithoutALog) {
   BenchRobot robot;
   robot.cycles(2);
   robot.node.hear(robot.order(Order::Kind::Start), robot.now());
-  robot.node.disarm("no log can be written: read-only");
+  robot.node.disarm("the log cannot be written: read-only");
   robot.cycles(20);
   EXPECT_EQ(robot.state().phase, Phase::Ready);
   EXPECT_THAT(robot.state().refused, HasSubstr("read-only"));

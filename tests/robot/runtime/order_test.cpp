@@ -74,7 +74,7 @@ TEST(Orders, OfAStartHaveLimitsThatAreMeant) {
 TEST(Orders, WithUnknownKeysStopButDoNotStart) {
   const auto start = parse_order(R"({"order":"start","id":"a","run":"r","seconds":3,"sed":7})");
   ASSERT_FALSE(start);
-  EXPECT_THAT(start.error().message, HasSubstr("a start has no key `sed`"));
+  EXPECT_THAT(start.error().message, HasSubstr("a start has the unknown key `sed`"));
   const auto stop = value_of(parse_order(R"({"order":"stop","id":"a","runs":"r","why":1})"));
   EXPECT_EQ(stop.unknown_keys, "`runs`, `why`");
 }

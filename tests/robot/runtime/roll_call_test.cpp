@@ -172,9 +172,9 @@ TEST(RunStarter, StopsAllWhenOneFallsSilent) {
   bench.run(5);
   EXPECT_EQ(bench.starter->stage(), RunStarter::Stage::Over);
   EXPECT_EQ(bench.starter->verdict(), RunVerdict::Invalid);
-  EXPECT_THAT(
-      bench.starter->complaints(),
-      ElementsAre("rvr2: is silent for 1 s", HasSubstr("rvr2: did not confirm that it stopped")));
+  EXPECT_THAT(bench.starter->complaints(),
+              ElementsAre("rvr2: has sent nothing for 1 s",
+                          HasSubstr("rvr2: did not confirm that it stopped")));
 }
 
 TEST(RunStarter, StopsAllWhenOneFails) {
@@ -215,7 +215,7 @@ TEST(RunStarter, WaitsUntilAllLogsAreClosed) {
   EXPECT_EQ(bench.starter->stage(), RunStarter::Stage::Over);
   EXPECT_EQ(bench.starter->verdict(), RunVerdict::Invalid);
   EXPECT_THAT(bench.starter->complaints(),
-              ElementsAre("rvr3: failed: the log is not whole: the disk is full"));
+              ElementsAre("rvr3: failed: the log is incomplete: the disk is full"));
 }
 
 TEST(RunStarter, StopsAllWhenThePersonWantsIt) {

@@ -138,11 +138,11 @@ TEST(ZmqEnds, WhatADriverSaysAfterAnotherHelloIsNotBelieved) {
   ASSERT_TRUE(becomes([&] { return node.end->connected(); }));
   client.send("hello operator");
   const auto said = value_of(next<TroubleMessage>(*node.end));
-  EXPECT_THAT(said.text, HasSubstr("drives no more: it said `hello operator`"));
+  EXPECT_THAT(said.text, HasSubstr("no longer drives: it sent `hello operator`"));
   EXPECT_FALSE(node.end->connected());
   client.send("odom 0 1 2 3 4 5 6");  // of older drivers: no trouble
   client.send("driven 0 0.3 0.3");
-  EXPECT_THAT(next<TroubleMessage>(*node.end)->text, HasSubstr("it is not believed"));
+  EXPECT_THAT(next<TroubleMessage>(*node.end)->text, HasSubstr("its reports are ignored"));
 }
 
 TEST(ZmqEnds, ASecondNodeOfTheRobotFindsTheAddressTaken) {

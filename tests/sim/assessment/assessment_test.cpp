@@ -69,7 +69,7 @@ TEST(Assessment, TellsWhatGroundNoiseDoesToTheThresholdsOfThePublishedProgram) {
   EXPECT_TRUE(black.passes);
   EXPECT_THAT(black.note, HasSubstr("the reading satisfied it in "));
   EXPECT_THAT(module_in(report, Module::GrayFloor).checks.at(0).note,
-              HasSubstr("were over other floor that the ground sensor read for it"));
+              HasSubstr("were over other floor, which the ground sensor misread"));
 }
 
 // The same of a robot that is a disc, senses strengths, votes on the floor and hears of others.

@@ -34,9 +34,9 @@ struct Break {
 
 const Break kBreaks[] = {
     {"a black that takes in grey", [](Flavour& f) { f.floor.black.high = 130'000; }, "black_floor",
-     "also take the floor 127, 127, 127 for it"},
+     "the floor 127, 127, 127 also satisfies it"},
     {"a white that nothing reaches", [](Flavour& f) { f.floor.white.low = 255'001; }, "white_floor",
-     "do not take the white disc (255, 255, 255) for it"},
+     "the white disc (255, 255, 255) does not satisfy it"},
     {"a grey beside the floors",
      [](Flavour& f) {
        f.floor.gray = {140'000, 170'000};

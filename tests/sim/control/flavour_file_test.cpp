@@ -60,7 +60,7 @@ TEST(FlavourFile, WhatIsWrongIsSaidWithItsPlace) {
               ElementsAre(HasSubstr("there is no kind of condition `stop`")));
   EXPECT_THAT(
       complaints(kOnWatermelon + "[behaviours]\nexploration = { number = 0, tau = [9, 1] }"),
-      ElementsAre("mine.toml:4:35: the range of tau is [9, 1]: its ends are exchanged"));
+      ElementsAre("mine.toml:4:35: the range of tau is [9, 1]: write the lower end first"));
   EXPECT_THAT(
       complaints(kOnWatermelon + "[behaviours]\nexploration = { number = 0, tau = [0, 1] }"),
       ElementsAre(HasSubstr("the range of tau: tau must be at least 1 and at most 1000000, this is "
@@ -84,20 +84,23 @@ TEST(FlavourFile, WhatIsWrongIsSaidWithItsPlace) {
   EXPECT_THAT(
       complaints(kOnWatermelon + "[conditions]\nblack_floor = { number = 2, beta = { token = \"n\" "
                                  "} }\n"),
-      ElementsAre(HasSubstr("texts have --n for something else; give beta another token")));
+      ElementsAre(HasSubstr("--n has another meaning in texts; give beta another token")));
   EXPECT_THAT(complaints(kOnWatermelon + "states = 17\n"),
               ElementsAre("mine.toml:3:10: `states` must be from 1 to 16, not 17"));
-  EXPECT_THAT(complaints("[behaviours]\nstop = { number = 0 }\n"),
-              ElementsAre(HasSubstr("a flavour needs a table [conditions] with one at least")));
+  EXPECT_THAT(
+      complaints("[behaviours]
+stop = { number = 0 }
+"),
+      ElementsAre(HasSubstr("a flavour needs a table [conditions] with at least one entry")));
   const std::string on_nothing =
       "[behaviours]\nstop = { number = 0 }\n[conditions]\nwhite_floor = { number = 0 }\n";
   EXPECT_THAT(complaints(on_nothing),
               ElementsAre(HasSubstr("conditions of the floor need `black`, `gray` and `white`")));
   EXPECT_THAT(complaints(on_nothing + "[floor]\nwhite = [200, 255]\n"), IsEmpty());
   EXPECT_THAT(complaints(kOnWatermelon + "[floor]\nblack = [30, 20]\n"),
-              ElementsAre(HasSubstr("`black` is from [30, 20]; the lower end comes first")));
+              ElementsAre(HasSubstr("`black` is from [30, 20]; write the lower end first")));
   EXPECT_THAT(complaints(kOnWatermelon + "[floor]\nlabels = []\n"),
-              ElementsAre(HasSubstr("color_detection looks for four labels")));
+              ElementsAre(HasSubstr("color_detection needs four labels in [floor]")));
   EXPECT_THAT(complaints(kOnWatermelon + "[obstacles]\nnear = 1\n"),
               ElementsAre(HasSubstr("near_m")));
   EXPECT_THAT(complaints("base = \"wassermelone\"\n[behaviours]\nstop = { number = 0 }\n"
@@ -143,12 +146,12 @@ TEST(FlavourFile, TextsOfExternalModulesAreReadAndPrintedAndNeverRun) {
   EXPECT_EQ(module_of(machine.states[0].transitions[0].condition), external_condition(3));
   EXPECT_EQ(complaint_about_running(controller, colours),
             "the module go_to_color of the flavour colours is external: this program can read it, "
-            "and only a program of its own can run it");
+            "but only your own program can run it");
   const auto own = parse_controller("--nstates 1 --s0 1", colours);
   EXPECT_EQ(complaint_about_running(*own, colours), std::nullopt);
   const auto other = parse_controller("--nstates 1 --s0 8 --vel0 0.5 --clr0 2.5", colours);
   ASSERT_FALSE(other.has_value());
-  EXPECT_THAT(other.error().message, HasSubstr("`--clr0` wants an integer, not `2.5`"));
+  EXPECT_THAT(other.error().message, HasSubstr("`--clr0` must be an integer, not `2.5`"));
 }
 
 TEST(FlavourFile, AMachineHasAsManyStatesAsItsFlavourAllows) {
@@ -173,23 +176,24 @@ TEST(FlavourFile, WhatIsWrongWithAnExternalModuleIsSaid) {
   EXPECT_THAT(with("stop_it = { number = 1, kind = \"external\" }"),
               ElementsAre(HasSubstr("`stop` and `stop_it` have the same number 1")));
   EXPECT_THAT(with("exploration = { number = 3, kind = \"external\" }"),
-              ElementsAre(HasSubstr("`exploration` is a kind that this program has")));
-  EXPECT_THAT(with("Wave = { number = 3, kind = \"external\" }"),
-              ElementsAre(HasSubstr("a module's name consists of small letters, digits and `_`")));
+              ElementsAre(HasSubstr("`exploration` is a kind of this program")));
+  EXPECT_THAT(
+      with("Wave = { number = 3, kind = \"external\" }"),
+      ElementsAre(HasSubstr("a module's name must consist of small letters, digits and `_`")));
   EXPECT_THAT(with("wave = { number = 3, kind = \"foreign\" }"),
               ElementsAre(HasSubstr("`kind` cannot be \"foreign\"")));
   EXPECT_THAT(with("gray_floor = { number = 3, kind = \"external\" }"),
-              ElementsAre(HasSubstr("`gray_floor` is a kind that this program has")));
+              ElementsAre(HasSubstr("`gray_floor` is a kind of this program")));
   const auto parameter = [&](const std::string& keys) {
     return with("wave = { number = 3, kind = \"external\", parameters = [ { " + keys + " } ] }");
   };
   EXPECT_THAT(parameter("name = \"speed\", token = \"v\", type = \"real\", range = [2, 1]"),
-              ElementsAre(HasSubstr("the range of speed is [2, 1]: its ends are exchanged")));
+              ElementsAre(HasSubstr("the range of speed is [2, 1]: write the lower end first")));
   EXPECT_THAT(parameter("name = \"speed\", token = \"v2\", type = \"real\", range = [1, 2]"),
-              ElementsAre(HasSubstr("`token` is 1 to 20 letters")));
+              ElementsAre(HasSubstr("`token` must be 1 to 20 letters")));
   EXPECT_THAT(parameter("name = \"speed\", token = \"s\", type = \"int\", range = [1, 2]"),
-              ElementsAre(HasSubstr("texts have --s for something else"),
-                          HasSubstr("the search has a parameter S of its own")));
+              ElementsAre(HasSubstr("--s has another meaning in texts"),
+                          HasSubstr("the search already has a parameter S")));
   EXPECT_THAT(parameter("token = \"v\", type = \"int\", range = [1, 2]"),
               ElementsAre(HasSubstr("needs `name`")));
   EXPECT_THAT(complaints(kOnWatermelon + "[conditions]\nblack_floor = { number = 0 }\n"

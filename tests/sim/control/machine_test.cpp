@@ -37,7 +37,7 @@ TEST(Machine, AStateHasAtMostFourTransitions) {
 TEST(Machine, ATransitionLeadsToAnotherState) {
   Machine machine = two_states();
   machine.states[1].transitions[0].target = 1;
-  EXPECT_EQ(complaint(machine), "state 1, transition 0: a transition leads to another state");
+  EXPECT_EQ(complaint(machine), "state 1, transition 0: a transition must lead to another state");
   machine.states[1].transitions[0].target = 2;
   EXPECT_EQ(complaint(machine), "state 1, transition 0: the target 2 is not a state");
   machine.states[1].transitions[0].target = -1;

@@ -30,7 +30,7 @@ TEST(MachineText, HasAMegabyteAtMost) {
   const std::string longest = machine + std::string((1U << 20U) - machine.size(), ' ');
   EXPECT_TRUE(parse_controller(longest, watermelon()));
   EXPECT_EQ(why_not(parse_controller(longest + " ", watermelon())).message,
-            "control software has at most 1048576 characters, and this text has 1048577");
+            "control software has at most 1048576 characters, but this text has 1048577");
 }
 
 TEST(MachineText, ReadsEveryModule) {
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "a machine of 5 states; machines of 1 to 4 states are read"},
         BadText{"--nstates 0", "token 2, column 11",
                 "a machine of 0 states; machines of 1 to 4 states are read"},
-        BadText{"--nstates 1.0 --s0 1", "token 2, column 11", "wants an integer, not `1.0`"},
+        BadText{"--nstates 1.0 --s0 1", "token 2, column 11", "must be an integer, not `1.0`"},
         BadText{"--nstates 1", "token 3, column 12", "expected `--s0`"},
         BadText{"--nstates 1 --s1 1", "token 3, column 13", "expected `--s0`"},
         BadText{"--nstates 2 --s0 1", "token 5, column 19", "expected `--s1`"},
@@ -109,10 +109,10 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadText{"--nstates 1 --s0 4", "token 4, column 18",
                 "no module 4 for `--s0`; it has 0 exploration, 1 stop, 2 attraction, 3 repulsion"},
-        BadText{"--nstates 1 --s0 x", "token 4, column 18", "wants an integer, not `x`"},
+        BadText{"--nstates 1 --s0 x", "token 4, column 18", "must be an integer, not `x`"},
         BadText{"--nstates 1 --s0 0", "token 5, column 19", "expected `--rwm0`"},
         BadText{"--nstates 1 --s0 0 --rwm0 0", "token 6, column 27", "tau must be at least 1"},
-        BadText{"--nstates 1 --s0 0 --rwm0 2.5", "token 6, column 27", "wants an integer"},
+        BadText{"--nstates 1 --s0 0 --rwm0 2.5", "token 6, column 27", "must be an integer"},
         BadText{"--nstates 1 --s0 0 --rwm0 5 --rwm0 6", "token 7, column 29", "appears twice"},
         BadText{"--nstates 1 --s0 0 --rwm0 5 --att0 2", "token 7, column 29",
                 "`--att0` does not belong to exploration"},
@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "does not belong to the block of state 0"},
         BadText{"--nstates 1 --s0 2 --att0 0", "token 6, column 27", "alpha must be more than 0"},
         BadText{"--nstates 1 --s0 2 --att0 nan", "token 6, column 27", "alpha must be"},
-        BadText{"--nstates 1 --s0 2 --att0 1,5", "token 6, column 27", "wants a number"},
+        BadText{"--nstates 1 --s0 2 --att0 1,5", "token 6, column 27", "must be a number"},
         BadText{"--nstates 1 --s0 1 --foo0 1", "token 5, column 20", "does not belong to stop"},
         BadText{"--nstates 1 --s0 1 --n0 1 --n0x0 0 --c0x0 5 --p0x0 1", "token 5, column 20",
                 "the only state of a machine has no transitions"}));
@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 5 --p0x0 1 --w0x0 2 --s1 1",
                 "token 13, column 54", "`--w0x0` does not belong to fixed_probability"},
         BadText{"--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 3 --p0x0 0.5 --w0x0 2 --s1 1",
-                "token 12, column 52", "wants an integer, not `0.5`"},
+                "token 12, column 52", "must be an integer, not `0.5`"},
         BadText{"--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 3 --p0x0 -1 --w0x0 2 --s1 1",
                 "token 12, column 52", "xi must be at least 0"},
         BadText{"--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 6 --p0x0 1 --l0x0 4 --s1 1",
@@ -164,7 +164,8 @@ TEST(ControllerText, NamesTheOptionsBeforeAMachineThatItDoesNotKnow) {
   const Error read = why_not(
       parse_controller("--robots 22 --rabsi 2 --rabar 0.7 --nstates 1 --s0 1", watermelon()));
   EXPECT_EQ(read.where, "token 1, column 1");
-  EXPECT_THAT(read.message, HasSubstr("not known here: `--robots`, `--rabsi`, `--rabar`;"));
+  EXPECT_THAT(read.message,
+              HasSubstr("unknown options before the machine: `--robots`, `--rabsi`, `--rabar`;"));
   EXPECT_THAT(parse_controller("--nstates 1 --robots 22 --s0 1", watermelon()).error().message,
               HasSubstr("expected `--s0`, found `--robots`"));
   EXPECT_THAT(parse_controller("--nstates 1 --s0 1 --robots 22", watermelon()).error().message,

@@ -148,9 +148,10 @@ TEST(NetworkText, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint("--network rvr"), HasSubstr("expected `--weights`"));
   EXPECT_THAT(
       complaint("--network rvr --weights 1, 2, 3"),
-      HasSubstr("token 5, column 28: weights are one list, with commas and without spaces"));
+      HasSubstr(
+          "token 5, column 28: write the weights as one list, with commas and without spaces"));
   EXPECT_THAT(complaint("--network e-puck --weights 1"),
-              HasSubstr("token 2, column 11: no inputs `e-puck`"));
+              HasSubstr("token 2, column 11: unknown inputs `e-puck`"));
   EXPECT_THAT(complaint("--network rvr --weights 1,2"), HasSubstr("has 26 weights, not 2"));
   EXPECT_THAT(complaint("--network rvr --weights 1,x"), HasSubstr("weight 2 is not a number"));
   EXPECT_THAT(complaint("--network rvr --weights 1,"), HasSubstr("weight 2 is not a number"));
@@ -235,7 +236,7 @@ TEST(GenomeText, SaysWhatCannotBeRead) {
   evolved.hidden = "node 19 1 0 0\nnode 29 1 0 0\n";
   evolved.genes = "gene 1 1 19 0.5 0 40 0 1\n";
   EXPECT_THAT(complaint(evolved.text()),
-              HasSubstr("a genome of NEAT with 2 hidden nodes; networks without a hidden layer"));
+              HasSubstr("a genome of NEAT with 2 hidden nodes; only networks without a hidden"));
   Genome raw;
   raw.sensors = 23;
   EXPECT_THAT(complaint(raw.text()), HasSubstr("a genome of 23 inputs"));
@@ -251,7 +252,7 @@ TEST(GenomeText, SaysWhatCannotBeRead) {
   EXPECT_THAT(changed("genomeend 2\n", ""), HasSubstr("`genomeend` is missing"));
   EXPECT_THAT(changed("genomeend 2\n", "genomeend 2 more\n"), HasSubstr("expected the end"));
   EXPECT_THAT(changed("trait 1", "trail 1"), HasSubstr("`trail`"));
-  EXPECT_THAT(changed("2.25", "x"), HasSubstr("wants a number, not `x`"));
+  EXPECT_THAT(changed("2.25", "x"), HasSubstr("must be a number, not `x`"));
   EXPECT_THAT(changed("2.25", "nan"), HasSubstr("finite"));
   EXPECT_THAT(changed("2.25 0 1 0 1", "2.25 1 1 0 1"), HasSubstr("recurrent"));
   EXPECT_THAT(changed("gene 1 2 16", "gene 1 1 16"), HasSubstr("from node 1 to node 16 twice"));

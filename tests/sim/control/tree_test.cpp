@@ -131,9 +131,9 @@ TEST(TreeText, OfTheOlderFormSaysWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint("--n0 0", "--n0 2"), HasSubstr("only Maple's trees"));
   EXPECT_THAT(complaint("--nc0 1", "--nc0 0"), HasSubstr("a subtree of 0 conditions"));
   EXPECT_THAT(complaint("--nc0 1", "--nc0 2"),
-              HasSubstr("a subtree of 2 conditions; trees with one"));
+              HasSubstr("a subtree of 2 conditions; only trees with one"));
   EXPECT_THAT(complaint("--p0x0 1", "--p0x0 1 --c0x1 0 --p0x1 1"),
-              HasSubstr("`--c0x1` is of a condition beyond the one that `--nc0` announces"));
+              HasSubstr("`--c0x1` is of another condition, but `--nc0` announces one"));
   EXPECT_THAT(complaint("--a0 1", ""), HasSubstr("expected `--a0`"));
   EXPECT_THAT(complaint("--a0 1", "--a0 99"), HasSubstr("has no module 99"));
   EXPECT_THAT(complaint("--a0 1", "--a0 1 --rwm0 4"), HasSubstr("does not belong to stop"));

@@ -92,7 +92,7 @@ TEST(MachineFile, NamesThePlaceOfWhatIsWrong) {
               ElementsAre("m.fsm:1: control software begins with one of --nstates, --fsm-config, "
                           "--nroot, --rootnode, --bt-config, --network, genomestart"));
   EXPECT_THAT(complaints_about("--s0 1\n"), ElementsAre(HasSubstr("m.fsm:1: ")));
-  EXPECT_THAT(complaints_about("# nothing\n"), ElementsAre("m.fsm: the file holds no machine"));
+  EXPECT_THAT(complaints_about("# nothing\n"), ElementsAre("m.fsm: the file contains no machine"));
   EXPECT_THAT(complaints_about(kStop), IsEmpty());
 }
 
@@ -100,10 +100,9 @@ TEST(MachineFile, ANameHasNoOptions) {
   // As AutoMoDe-private, branch HardwareOptimization, Results/controllers: the options before the
   // machine say how many robots there are, and what their sensors cost.
   const std::string waffle = " --robots 22 --rabsi 2 --rabar 0.7 --nstates 1 --s0 1\n";
-  EXPECT_THAT(
-      complaints_about(waffle),
-      ElementsAre(AllOf(HasSubstr("m.fsm:1: options before the machine that are not known here: "),
-                        HasSubstr("`--robots`, `--rabsi`, `--rabar`"))));
+  EXPECT_THAT(complaints_about(waffle),
+              ElementsAre(AllOf(HasSubstr("m.fsm:1: unknown options before the machine: "),
+                                HasSubstr("`--robots`, `--rabsi`, `--rabar`"))));
   EXPECT_THAT(complaints_about(waffle + waffle + waffle),
               ElementsAre(AllOf(HasSubstr("m.fsm:1: "), HasSubstr("2 more lines"))));
   EXPECT_THAT(complaints_about("best: --robots 22 --nstates 1 --s0 1\n"),
@@ -152,7 +151,7 @@ TEST(MachineFile, SaysOnceWhatAWrongFileSeemsToBe) {
            {"format = 1\n[proximity]\nrange = 0.4\n", "a profile"},
            {"{\"a\": 1,\n\"b\": 2}\n", "JSON"},
            {"fsm_id,mission,fsm\nhA1,aggregation,--nstates 1 --s0 1\n", "a table (CSV)"},
-           {std::string("a\0b\nc\n", 6), "no text"}}) {
+           {std::string("a\0b\nc\n", 6), "a binary file"}}) {
     EXPECT_THAT(about(text), AllOf(HasSubstr("m.fsm: this is " + kind), HasSubstr(expected)));
   }
   std::string lines;

@@ -77,7 +77,7 @@ TEST(MissionFile, WhoseNameIsNoNameNeedsOne) {
   ASSERT_EQ(entry.error().size(), 1U);
   EXPECT_EQ(
       entry.error().front().message,
-      "the mission takes its file's name, and \"my mission\" cannot be one: a name consists of "
+      "the mission gets its file's name, but \"my mission\" is not a name: a name consists of "
       "letters, digits, `_`, `-` and `.`; give it a `name`");
   EXPECT_TRUE(parse_mission(text + "name = \"mine\"\n", "my mission.toml"));
 }
@@ -145,7 +145,7 @@ TEST(ArenaShapes, ThatMakeNoArenaAreExplained) {
       {"shape = \"square\"\nside = 1\ndiameter = 2\n", "`diameter` belongs to shape = \"circle\""},
       {"shape = \"regular\"\nsides = 2\narea = 1\n", "`sides` must be from 3 to 60"},
       {"shape = \"regular\"\nsides = 5\n", "needs an `inradius` or an `area`"},
-      {"area = 4\ninradius = 1\n", "say the same; give one"},
+      {"area = 4\ninradius = 1\n", "define the same size; give only one"},
       {"area = 0\n", "`area` must be from 0.01"},
       {"wall_height = 0\n", "`wall_height` must be from 0.001"},
       {"shape = \"octagon\"\n", "`shape` cannot be \"octagon\""},
@@ -197,7 +197,7 @@ TEST(Solids, WithoutRoomOrSenseAreExplained) {
       {"objects = [ { shape = \"circle\", x = 0, y = 0, diameter = 0.5, friction = 1 } ]\n",
        "needs `mass`"},
       {"obstacles = [ { shape = \"circle\", x = 0, y = 0, diameter = 1, angle = 1, theta = 1 } ]\n",
-       "say the same"},
+       "mean the same"},
   };
   for (const BadArena& arena : bad) {
     EXPECT_THAT(complaints(arena.keys), ElementsAre(HasSubstr(arena.sentence))) << arena.keys;
@@ -249,7 +249,7 @@ TEST(Placements, ThatCannotBeAreExplained) {
                       "robots = " + robots + "\ninstances = { training = " + training + " }\n");
   };
   EXPECT_THAT(wrong("{ placement = \"fixed\", poses = [ { x = 1, y = 0 } ] }"),
-              ElementsAre(HasSubstr("poses for 1 robot, and the mission has 2")));
+              ElementsAre(HasSubstr("poses for 1 robot, but the mission has 2")));
   EXPECT_THAT(wrong("{ placement = \"fixed\", poses = [ { x = 1.9, y = 0 } ] }", "1"),
               ElementsAre(HasSubstr("robot 1 at (1.9, 0) would stand in a wall")));
   EXPECT_THAT(wrong("{ placement = \"fixed\", poses = [ { x = 1, y = 0 }, { x = 1.1, y = 0 } ] }"),

@@ -159,7 +159,7 @@ TEST(ProfileFile, GetsASentenceWithLineAndColumnForEachMistake) {
       {"[ground_color]\nlabels = [\"pink\"]\n", "mine.toml:3:10: there is no colour \"pink\""},
       {"[ground_color]\nlabels = [\"blak\"]\n",
        "there is no colour \"blak\" (did you mean \"black\"?); known are: black, gray"},
-      {"[ground_color]\nlabels = []\n", "mine.toml:3:10: `labels` names no colour"},
+      {"[ground_color]\nlabels = []\n", "mine.toml:3:10: `labels` must name a colour"},
       {"[neighbours]\nsource = \"lidr\"\n", "mine.toml:3:10: `source` cannot be \"lidr\" (did you"},
       {"[tracking]\nscore_point = \"tags\"\n", "mine.toml:3:15: `score_point` cannot be \"tags\""},
       {"[tracking]\ntag = [0.1]\n",

@@ -37,7 +37,7 @@ TEST(RobotFile, BasesThatFormACircleAreRefused) {
   std::ofstream(folder / "a.toml") << "format = 1\nbase = \"b.toml\"\n";
   std::ofstream(folder / "b.toml") << "format = 1\nbase = \"a.toml\"\n";
   EXPECT_THAT(complaint_of(find_robot("a.toml", folder / "")),
-              HasSubstr("16 files deep, or form a circle"));
+              HasSubstr("16 files, or is a circle"));
   std::ofstream(folder / "b.toml") << "format = 1\nbase = \"epuck\"\n";
   EXPECT_TRUE(find_robot("a.toml", folder / ""));
 }
@@ -57,17 +57,17 @@ TEST(RobotFile, TheEpuckHasTheNumbersOfItsFacts) {
 TEST(RobotFile, BadFilesAreRefusedWithASentenceEach) {
   EXPECT_THAT(complaints("[body]\nshape = \"circle\"\ndiameter = 0.1\n[proximity]\nstart = 0.04\n"),
               ElementsAre("mine.toml:5:1: rays would start inside of the body, 0.04 m from the "
-                          "centre: let them start at 0.05 m or farther, or at 0 for the body's "
+                          "centre; let them start at 0.05 m or farther, or at 0 for the body's "
                           "edge"));
   EXPECT_THAT(
       complaints("base = \"epuck\"\n[ground]\nmajority = 0\n"),
       ElementsAre(HasSubstr("a vote of 15 readings needs a `majority` from 1 to 14, not 0")));
   EXPECT_THAT(complaints("[proximity]\nrays = [1, 2, 3, 4, 5, 6, 7, 8, 9]\n"),
-              ElementsAre("mine.toml:3:8: `rays` has 9 sensors; at most 8 are taken"));
+              ElementsAre("mine.toml:3:8: `rays` has 9 sensors; at most 8 are allowed"));
   EXPECT_THAT(complaints("[proximity]\nlabels = [1, 2]\n"),
               ElementsAre(HasSubstr("the ring has 8 rays and 2 labels")));
   EXPECT_THAT(complaints("[proximity]\nrays = [0]\nlabels = [1, 2]\n"),
-              ElementsAre(HasSubstr("the ring has 1 ray and 2 labels; give a label to each ray")));
+              ElementsAre(HasSubstr("the ring has 1 ray and 2 labels; give each ray a label")));
   EXPECT_THAT(complaints("[proximity]\nreading = \"strength\"\n"),
               ElementsAre(HasSubstr("needs a `reach` and a `law`")));
   EXPECT_THAT(complaints("[drive]\ntrack = 0\n"), ElementsAre(HasSubstr("`track` must be from")));
@@ -121,22 +121,23 @@ TEST(RobotFile, KeysOfAnotherShapeNeedTheShape) {
 
 TEST(RobotFile, NumbersFarFromWhatTheBodyCanHaveAreRefused) {
   EXPECT_THAT(complaints("base = \"epuck\"\n[body]\ninertia = 1e-30\n"),
-              ElementsAre(HasSubstr("mine.toml:4:11: `inertia` is 1e-30 kg m2, and a plate of this "
+              ElementsAre(HasSubstr("mine.toml:4:11: `inertia` is 1e-30 kg m2, but a plate of this "
                                     "outline and mass has ")));
   EXPECT_THAT(complaints("[body]\ninertia = 30\n"), ElementsAre(HasSubstr("`inertia` is 30 kg")));
   EXPECT_THAT(complaints("[body]\ninertia = 20\n"), IsEmpty());
   EXPECT_THAT(complaints("[body]\ninertia = 0.0001\n"), IsEmpty());
   EXPECT_THAT(
       complaints("[neighbours]\nless = 0.8\n"),
-      ElementsAre("mine.toml:3:8: no distance would be above 0: `less` is 0.8 m, and `range` "
+      ElementsAre("mine.toml:3:8: all distances would be 0: `less` is 0.8 m, but `range` is "
                   "0.75 m; give a smaller `less`"));
   EXPECT_THAT(complaints("base = \"epuck\"\n[neighbours]\nrange = 0.07\n"),
               ElementsAre(HasSubstr("`less` is 0.07 m, and `range` 0.07 m")));
   EXPECT_THAT(complaints("base = \"epuck\"\n[neighbours]\nrange = 0\n"), IsEmpty())
       << "a robot that hears no other one";
   EXPECT_THAT(complaints("base = \"epuck\"\n[proximity]\nstart = 0.6\n"),
-              ElementsAre(HasSubstr("mine.toml:4:9: `start` is 0.6 m from the centre, and the body "
-                                    "ends 0.035 m from it; at most 0.5 m, or three times as far")));
+              ElementsAre(HasSubstr(
+                  "mine.toml:4:9: `start` is 0.6 m from the centre, but the body "
+                  "ends 0.035 m from it; at most 0.5 m, or three times the body's radius")));
   EXPECT_THAT(complaints("[body]\nshape = \"circle\"\ndiameter = 0.4\n[proximity]\nstart = 0.6\n"),
               IsEmpty());
   EXPECT_THAT(complaints("base = \"epuck\"\n[light]\nout = 0.6\n"),
@@ -150,8 +151,8 @@ TEST(RobotFile, APolygonHasItsCentreOfMassWhereTheRobotHasItsCentre) {
   EXPECT_THAT(
       complaints(body + "[[0, 0], [0.2, 0], [0, 0.1]]\n"),
       ElementsAre("mine.toml:4:11: this polygon cannot be a robot's body: its centre of mass is "
-                  "[0.066667, 0.033333], and a robot's must be at [0, 0]; measure its corners, and "
-                  "all else of it, from there"));
+                  "[0.066667, 0.033333], but a robot's must be at [0, 0]; give its corners, and "
+                  "all other places on it, relative to that point"));
   const std::string centred =
       "[[-0.066667, -0.033333], [0.133333, -0.033333], [-0.066667, 0.066667]]\n";
   EXPECT_THAT(complaints(body + centred), IsEmpty()) << "what the sentence says is near enough";
@@ -163,16 +164,17 @@ TEST(RobotFile, APolygonHasItsCentreOfMassWhereTheRobotHasItsCentre) {
 TEST(RobotFile, KeysThatDoNothingForTheRobotAreRefused) {
   for (const auto& [text, sentence] : std::initializer_list<std::pair<const char*, const char*>>{
            {"[proximity]\nreach = 1\n",
-            "mine.toml:3:9: `reach` is of robots whose proximity sensors give strengths, and does "
-            "nothing here; leave it out"},
-           {"[proximity]\nlaw = [1, 0, 0]\n", "`law` is of robots whose proximity sensors"},
-           {"[ground]\nticks = 2\n", "`ticks` is of robots whose ground sensors vote"},
-           {"[ground]\nmajority = 2\n", "`majority` is of robots"},
-           {"[ground]\nblack_below = 0.1\n", "`black_below` is of robots"},
-           {"[ground]\nwhite_above = 0.1\n", "`white_above` is of robots"},
-           {"[neighbours]\nticks = 2\n", "`ticks` is of robots that hear each other by radio"},
+            "mine.toml:3:9: `reach` is only for robots whose proximity sensors give strengths and "
+            "does nothing here; leave it out"},
+           {"[proximity]\nlaw = [1, 0, 0]\n", "`law` is only for robots whose proximity sensors"},
+           {"[ground]\nticks = 2\n", "`ticks` is only for robots whose ground sensors vote"},
+           {"[ground]\nmajority = 2\n", "`majority` is only for robots"},
+           {"[ground]\nblack_below = 0.1\n", "`black_below` is only for robots"},
+           {"[ground]\nwhite_above = 0.1\n", "`white_above` is only for robots"},
+           {"[neighbours]\nticks = 2\n",
+            "`ticks` is only for robots that hear each other by radio"},
            {"base = \"epuck\"\n[neighbours]\nsource = \"sight\"\nticks = 2\n",
-            "`ticks` is of robots that hear"}}) {
+            "`ticks` is only for robots that hear"}}) {
     EXPECT_THAT(complaints(text), ElementsAre(HasSubstr(sentence))) << text;
   }
   EXPECT_THAT(complaints("[proximity]\nreach = 0.0\nlaw = [0, 0, 0]\n"), IsEmpty())
@@ -212,11 +214,12 @@ TEST(RobotFile, WhatDoesNotFitIsRefusedWithASentence) {
   Flavour other = **find_flavour("chocolate-epuck");
   other.reference = "rm3.0";
   EXPECT_EQ(misfit(other, epuck),
-            "the flavour `chocolate-epuck` needs the reference model rm3.0, and the robot `epuck` "
+            "the flavour `chocolate-epuck` needs the reference model rm3.0, but the robot `epuck` "
             "is simulated with rm1.1 and rm1.2 and rm1-2018");
-  EXPECT_EQ(misfit(built_in_profile("rvr").value(), epuck),
-            "the profile `rvr` is not one of the robot `epuck`: `proximity.sd` is of robots whose "
-            "proximity sensors measure distances");
+  EXPECT_EQ(
+      misfit(built_in_profile("rvr").value(), epuck),
+      "the profile `rvr` does not fit the robot `epuck`: `proximity.sd` is only for robots whose "
+      "proximity sensors measure distances");
   EXPECT_THAT(misfit(built_in_profile("epuck").value(), rvr()),
               Optional(HasSubstr("`proximity.half_width`")));
   for (const char* name : {"epuck", "epuck-ideal", "epuck-pseudo-reality", "argos3"})
@@ -245,12 +248,14 @@ TEST(RobotFile, KeysOfProfilesThatDoNothingForTheRobotDoNotFit) {
                                                          {"neighbours", "source", "\"lidar\""},
                                                          {"neighbours", "every", "\"1 s\""}}) {
     const std::string text = "[" + device + "]\n" + key + " = " + value + "\n";
-    EXPECT_THAT(misfit_of(text, epuck), HasSubstr("`" + device + "." + key + "` is of robots "));
+    EXPECT_THAT(misfit_of(text, epuck),
+                HasSubstr("`" + device + "." + key + "` is only for robots "));
     EXPECT_EQ(misfit_of(text, rvr()), "");
   }
   for (const std::string device : {"proximity", "ground_color", "light"}) {
     const std::string text = "[" + device + "]\nhalf_width = 0.1\n";
-    EXPECT_THAT(misfit_of(text, rvr()), HasSubstr("`" + device + ".half_width` is of robots "));
+    EXPECT_THAT(misfit_of(text, rvr()),
+                HasSubstr("`" + device + ".half_width` is only for robots "));
     EXPECT_EQ(misfit_of(text, epuck), "");
   }
 }
@@ -262,7 +267,7 @@ TEST(RobotFile, ANetworkOfSingleSensorsNeedsAllOfThem) {
   EXPECT_EQ(misfit(NetworkInputs::Rm12, robot), std::nullopt) << "a sum over the ring";
   EXPECT_EQ(misfit(NetworkInputs::Rm11, robot),
             "a network with the inputs rm1.1 reads the strengths of 8 proximity and 8 light "
-            "sensors, and the robot `epuck` has 8 and 2");
+            "sensors, but the robot `epuck` has 8 and 2");
   robot.light = {.reading = LightRing::Reading::Lux};
   EXPECT_THAT(misfit(NetworkInputs::Rm11, robot), Optional(HasSubstr("that give lux")));
 }
@@ -306,7 +311,8 @@ TEST(ProfileRanges, WithTheirEndsExchangedOrTooWideAreRefused) {
     const auto profile = parse_profile("format = 1\n[treads]\nsd = " + range + "\n", "mine.toml");
     return profile ? std::string() : to_string(profile.error().front());
   };
-  EXPECT_THAT(errors("[0.2, 0.1]"), HasSubstr("the ends of the range `treads.sd` are exchanged"));
+  EXPECT_THAT(errors("[0.2, 0.1]"),
+              HasSubstr("the ends of the range `treads.sd` are in the wrong order"));
   EXPECT_THAT(errors("[0.2, 7]"), HasSubstr("must be within 0 and 1"));
   EXPECT_THAT(errors("{ runs = [0.1, 0.2] }"), HasSubstr("{ run = [0, 0.1] }"));
   EXPECT_THAT(errors("[1]"), HasSubstr("a range such as [0, 0.1]"));

@@ -34,25 +34,26 @@ TEST(StartsCsv, AcceptsLineEndsOfBothKinds) {
 }
 
 TEST(StartsCsv, ErrorsNameTheLine) {
-  EXPECT_EQ(starts_error(""), "1: there is no column `seed`; wanted are: seed, robot, x, y, theta");
+  EXPECT_EQ(starts_error(""), "1: there is no column `seed`; needed are: seed, robot, x, y, theta");
   EXPECT_EQ(starts_error("seed,x,y\n"),
-            "1: there is no column `robot`; wanted are: seed, robot, x, y, theta");
+            "1: there is no column `robot`; needed are: seed, robot, x, y, theta");
   const std::string header = "seed,robot,x,y,theta\n";
   EXPECT_EQ(starts_error(header + "1,0,0,0\n"), "2: expected 5 cells as in the header, found 4");
   EXPECT_EQ(starts_error(header + "1,0,0,0,0\n1,2,0,0,0\n"),
-            "3: column robot wants robot 1 of this seed, not `2`");
+            "3: column robot must be robot 1 of this seed, not `2`");
   EXPECT_EQ(starts_error(header + "1,0,0,0,0\n1,0,0,0,0\n"),
-            "3: column robot wants robot 1 of this seed, not `0`");
+            "3: column robot must be robot 1 of this seed, not `0`");
   EXPECT_EQ(starts_error(header + "-1,0,0,0,0\n1,1,0,0,0\n"),
-            "2: column seed wants a seed from 1 to 2147483647, not `-1`");
-  EXPECT_EQ(starts_error("seed,robot,x,y,x,theta\n"), "1: the column `x` is there twice");
+            "2: column seed must be a seed from 1 to 2147483647, not `-1`");
+  EXPECT_EQ(starts_error("seed,robot,x,y,x,theta\n"), "1: the column `x` appears twice");
   EXPECT_EQ(starts_error("who,who,seed,robot,x,y,theta\n"), "") << "columns that are left out";
-  EXPECT_EQ(starts_error(header + "x,0,0,0,0\n"), "2: column seed wants an integer, not `x`");
-  EXPECT_EQ(starts_error(header + "1,0,0.1m,0,0\n"), "2: column x wants a number, not `0.1m`");
-  EXPECT_EQ(starts_error(header + "1,0,0,inf,0\n"), "2: column y wants a finite number, not `inf`");
-  EXPECT_EQ(starts_error(header + "1,0,0,0, 0\n"), "2: column theta wants a number, not ` 0`");
+  EXPECT_EQ(starts_error(header + "x,0,0,0,0\n"), "2: column seed must be an integer, not `x`");
+  EXPECT_EQ(starts_error(header + "1,0,0.1m,0,0\n"), "2: column x must be a number, not `0.1m`");
+  EXPECT_EQ(starts_error(header + "1,0,0,inf,0\n"),
+            "2: column y must be a finite number, not `inf`");
+  EXPECT_EQ(starts_error(header + "1,0,0,0, 0\n"), "2: column theta must be a number, not ` 0`");
   EXPECT_EQ(starts_error(header + "1,0,0,0,1000.5\n"),
-            "2: column theta wants an angle in radians, from -1000 to 1000, not `1000.5`");
+            "2: column theta must be an angle in radians, from -1000 to 1000, not `1000.5`");
 }
 
 TEST(StartsCsv, TakesColumnsInAnyOrderAndLeavesOthersOut) {
@@ -71,12 +72,12 @@ TEST(PatchesCsv, ReadsPatchesBySeed) {
 
 TEST(PatchesCsv, ErrorsNameTheLine) {
   EXPECT_EQ(patches_error("seed,x,y,colour\n"),
-            "1: there is no column `color`; wanted are: seed, x, y, color");
-  EXPECT_EQ(patches_error("seed,x,y,color,seed\n"), "1: the column `seed` is there twice");
+            "1: there is no column `color`; needed are: seed, x, y, color");
+  EXPECT_EQ(patches_error("seed,x,y,color,seed\n"), "1: the column `seed` appears twice");
   EXPECT_EQ(patches_error("seed,x,y,color\n0,0,0,red\n"),
-            "2: column seed wants a seed from 1 to 2147483647, not `0`");
+            "2: column seed must be a seed from 1 to 2147483647, not `0`");
   EXPECT_EQ(patches_error("seed,x,y,color\n1,0,0,pink\n"),
-            "2: column color wants the name of a colour, or #rrggbb, not `pink`");
+            "2: column color must be the name of a colour, or #rrggbb, not `pink`");
 }
 
 /// What was drawn reads back to the same instance, also colours without a name.

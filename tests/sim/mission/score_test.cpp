@@ -288,19 +288,18 @@ TEST(FormulaScore, SaysWhatIsWrongAndWhere) {
   };
   EXPECT_EQ(
       message("2 * distance"),
-      "the score's `value` cannot be worked out: at character 5: there is no `distance`; "
+      "the score's `value` cannot be computed: at character 5: there is no `distance`; "
       "names are x, y, t, speed, nearest, from_centre, black, gray, white, red, green, blue, "
       "yellow; functions are abs, sqrt, min, max, floor, hypot, exp, log, pow, sin, cos, atan2");
   EXPECT_THAT(message("blak"), HasSubstr("did you mean \"black\"?"));
   EXPECT_THAT(message("-spread"), EndsWith("; with of = \"swarm\" it could be"));
   EXPECT_THAT(message("nearest", "swarm"), EndsWith("with of = \"robots\" it could be"));
-  EXPECT_THAT(message("x)"), EndsWith("at character 2: `)` has no place here"));
-  EXPECT_THAT(message("atan2(x)"), EndsWith("`atan2` wants more values"));
+  EXPECT_THAT(message("x)"), EndsWith("at character 2: `)` is not allowed here"));
+  EXPECT_THAT(message("atan2(x)"), EndsWith("`atan2` needs more values"));
   EXPECT_THAT(message(""), EndsWith("it is empty"));
-  EXPECT_EQ(
-      message("x ^ 2"),
-      "the score's `value` cannot be worked out: at character 3: there is no `^`; write x * x, "
-      "or pow(x, 3)");
+  EXPECT_EQ(message("x ^ 2"),
+            "the score's `value` cannot be computed: at character 3: there is no `^`; write x * x, "
+            "or pow(x, 3)");
   for (const std::string wrong :
        {"",       " ",          "(x",  "x)",       "x +",     "x = 3", "x, y",   "\"x\"",
         "sqrt()", "sqrt(x, y)", "x y", "nearest(", "rint(x)", "_pi",   "x +* y", "min()",

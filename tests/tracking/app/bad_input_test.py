@@ -137,7 +137,7 @@ class BadInput(unittest.TestCase):
                         (*spin, "-o", copy.with_name("rvr2.offset.toml")), (*spin, "-o", other)):
             done = call(TRACK, *command)
             self.assertEqual(done.returncode, 2, f"{command}: {done.stdout}")
-            self.assertIn("is there already", done.stderr)
+            self.assertIn("already exists", done.stderr)
         self.assertEqual(before, {file: file.read_bytes() for file in before})
         place = self.folder / "place.toml"
         for _ in range(2):
@@ -399,8 +399,8 @@ class BadInput(unittest.TestCase):
             return f'[[point]]\nrobot = "{robot}"\ntime = "{time} s"\nu = 400\nv = 300\nwho = "A"\n'
         three = 'robots = ["rvr1", "rvr2", "rvr3"]\n'
         for robots, sections, wanted in (
-                (three, point(-0.5), r'\[\[point\]\] of "rvr1" is at -0\.50 s, and the run goes from 0 s to'),
-                (three, point(500), r'is at 500\.00 s, and the run goes'),
+                (three, point(-0.5), r'\[\[point\]\] of "rvr1" is at -0\.50 s, but the run goes from 0 s to'),
+                (three, point(500), r'is at 500\.00 s, but the run goes'),
                 ('robots = ["rvr1", "rvr2"]\n', point(1, "rvr3"), r'`robots` leaves out "rvr3", and has: rvr1, rvr2'),
                 ('robots = ["rvr1", "rvr2"]\n', '[[robot]]\nname = "rvr3"\nverdict = "VALID"\n',
                  r'`robots` leaves out "rvr3", .* take out its \[\[robot\]\]'),
@@ -420,7 +420,7 @@ class BadInput(unittest.TestCase):
         self.assertIn("Stored as r1", first.stdout)
         again = self.score(LAB.film("good"))
         self.assertEqual(again.returncode, 0, again.stderr)
-        self.assertIn("stored already, as r1", again.stdout)
+        self.assertIn("already stored, as r1", again.stdout)
         self.assertEqual(len(runs_in(self.store)), 1)
         without_d4 = self.score(LAB.film("good"), "--design", "d4")
         self.assertEqual(without_d4.returncode, 4, without_d4.stderr)

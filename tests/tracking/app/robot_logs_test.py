@@ -103,9 +103,9 @@ class RobotLogs(unittest.TestCase):
         self.assertTrue(all(robot["there"] == robot["seen"] for robot in neighbours), neighbours)
         self.check_profile()
         text = call(TRACK, "rescore", "r1", "--store", self.store).stdout
-        self.assertRegex(text, r"latency \d+ ms \+- \d+\.\d ms: its motion behind its commands")
+        self.assertRegex(text, r"latency \d+ ms \+- \d+\.\d ms, from its commands to its motion")
         page = call(TRACK, "report", "r1", "--store", self.store, "-o", "-").stdout
-        self.assertIn("What the robots wrote down themselves", page)
+        self.assertIn("What the robots recorded themselves", page)
 
     def check_profile(self):
         """A profile of this run: its latency, and the base's values for what 12 s do not tell."""
@@ -121,8 +121,8 @@ class RobotLogs(unittest.TestCase):
         self.assertEqual(tomllib.loads(whole.stdout)["timing"]["delays"], told["timing"]["delays"])
         unknown = [figure["name"] for figure in made["figures"] if figure["mean"] is None]
         for name in unknown:
-            self.assertIn(f"# {name}: left as in `rvr`", lab.read_text())
-        for words, said in ((("r1", "-o", lab), "is there already"),
+            self.assertIn(f"# {name}: as in `rvr`", lab.read_text())
+        for words, said in ((("r1", "-o", lab), "already exists"),
                             (("r1", "-o", self.folder / "rvr.toml"), "is built in"),
                             (("r1", "r1"), "r1: is named twice"), ((self.log,), "name its arena file"),
                             (("r7",), "r7"), (("r1", "--base", "mars"), "mars")):

@@ -100,7 +100,7 @@ TEST(CalibrationFileTest, ErrorsNameLineColumnAndKey) {
   EXPECT_THAT(first_error(parse_camera_calibration("format = 1\nkind = ", "f")),
               AllOf(HasSubstr("f:2"), HasSubstr("E_CONFIG")));
   EXPECT_THAT(first_error(parse_camera_calibration(calibration_text(place()), "f")),
-              HasSubstr("this is a calibration of kind \"place\", wanted is one of kind"));
+              HasSubstr("this is a calibration of kind \"place\"; expected one of kind"));
   EXPECT_THAT(first_error(parse_camera_calibration("", "f")), HasSubstr("format = 1"));
 }
 

@@ -104,7 +104,7 @@ TEST(SolveOffsetTest, EachLimitRefusesWithItsValue) {
   EXPECT_THAT(faults(spin({.turns = 0.75})), HasSubstr("turned by 270 degrees, at least 300"));
   EXPECT_THAT(faults(spin({.noise_m = 0.003})), HasSubstr("RMS off a circle, limit 2.00 mm"));
   EXPECT_THAT(faults(spin({.drift_m_s = 0.01})), HasSubstr("crept at 10.4"));
-  EXPECT_THAT(faults(spin({.turns = 0, .heading_noise_rad = 0})), HasSubstr("do not show a turn"));
+  EXPECT_THAT(faults(spin({.turns = 0, .heading_noise_rad = 0})), HasSubstr("are not enough"));
   EXPECT_THAT(faults(spin({.turns = 0})), HasSubstr("turned by 0 degrees"));
   EXPECT_THAT(faults(std::vector<TagSample>{}), HasSubstr("0 samples"));
   // It drives in a circle of 0.3 m.
@@ -156,7 +156,7 @@ TEST(SolveYawTest, ShortAndCrookedRunsAreRefused) {
     return travel ? std::string("accepted") : to_string(travel.error());
   };
   EXPECT_THAT(text(straight(0.4, 0, false)),
-              AllOf(HasSubstr("E_SPIN_QUALITY"), HasSubstr("0.40 m long, at least 0.5")));
+              AllOf(HasSubstr("E_SPIN_QUALITY"), HasSubstr("0.40 m long, but at least 0.5")));
   EXPECT_THAT(text({}), HasSubstr("0.00 m long"));
   std::vector<TagSample> crooked = straight(0.8, 0, false);
   for (std::size_t i = 0; i < crooked.size(); ++i)

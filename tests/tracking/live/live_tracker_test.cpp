@@ -86,7 +86,7 @@ TEST(LiveTrackerTest, SaysForHowLongARobotIsNotSeen) {
   EXPECT_TRUE(all[5].issues.empty()) << all[5].issues.front();
   EXPECT_FALSE(all[17].robots[1].is_seen);
   EXPECT_NEAR(all[17].robots[1].pose->x, 0.3, 0.003) << "the last known place";
-  EXPECT_THAT(all[17].issues, Contains("rvr2 (tag 2) is not seen for 0.8 s"));
+  EXPECT_THAT(all[17].issues, Contains("rvr2 (tag 2) has not been seen for 0.8 s"));
 }
 
 TEST(LiveTrackerTest, SeesThatTheCameraMoved) {
@@ -121,7 +121,7 @@ TEST(LiveTrackerTest, SaysWhatIsWrong) {
   EXPECT_THAT(state.issues, Contains(HasSubstr("rvr1 (tag 1): the tag looks 11 % too large")));
   EXPECT_THAT(state.issues, Contains(HasSubstr("rvr2 (tag 2) has no offset calibration")));
   EXPECT_THAT(state.issues, Contains("tag 100 is visible more than once"));
-  EXPECT_THAT(state.issues, Contains("tag 33 belongs to no robot"));
+  EXPECT_THAT(state.issues, Contains("tag 33 does not belong to a robot"));
   EXPECT_THAT(state.issues, Not(Contains(HasSubstr("outside"))));
 }
 
@@ -132,7 +132,7 @@ TEST(LiveTrackerTest, ACameraWithoutCalibrationShowsTags) {
   EXPECT_EQ(state.tags.size(), 4U);
   EXPECT_FALSE(state.robots[0].pose.has_value());
   EXPECT_TRUE(state.robots[0].is_seen);
-  EXPECT_THAT(state.issues, Contains("camera ceiling is not calibrated: tags alone are shown"));
+  EXPECT_THAT(state.issues, Contains("camera ceiling is not calibrated: only tags are shown"));
   Rig other = rig();
   other.models["c.camera.toml"].model.size = {1280, 720};
   EXPECT_THAT(states(other, 1).front().issues, Contains(HasSubstr("is for 1280 x 720 pixels")));
@@ -147,7 +147,7 @@ TEST(LiveStateTest, IsJsonAndALine) {
   state.dropped = 2;
   state.robots = {{"rvr \"1\"", 1, 0.2, Pose{0.5, -0.25, 1}, 12.43, true, {}},
                   {"bad\xff", 2, 0.2, {}, {}, false, {}}};
-  state.issues = {"bad (tag 2) has not been seen yet", "tag 33 belongs to no robot"};
+  state.issues = {"bad (tag 2) has not been seen yet", "tag 33 does not belong to a robot"};
   const auto json = nlohmann::json::parse(live_state_json(state));
   EXPECT_EQ(json["robots"][0]["name"], "rvr \"1\"");
   EXPECT_EQ(json["robots"][0]["x"], 0.5);

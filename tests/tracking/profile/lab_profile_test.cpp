@@ -208,8 +208,9 @@ TEST(LabProfile, LeavesWhatRunsCannotTellAsInTheBase) {
   EXPECT_FALSE(figure(made, "latency").value);
   EXPECT_THAT(figure(made, "latency").reason,
               HasSubstr("run1, rvr1: its commands did not move it"));
-  EXPECT_THAT(made.text, HasSubstr("# latency: left as in `pseudo-reality`, since no robot could "
-                                   "tell it: run1, rvr1: its commands did not move it"));
+  EXPECT_THAT(made.text,
+              HasSubstr("# latency: as in `pseudo-reality`, because no robot's runs show "
+                        "it: run1, rvr1: its commands did not move it"));
   EXPECT_THAT(made.text, HasSubstr("of 3 robots"));
 }
 
@@ -220,7 +221,7 @@ TEST(LabProfile, SaysHowManyRobotsAndRunsItRestsOn) {
   EXPECT_THAT(made.text,
               HasSubstr("measured on 3 robots (rvr1, rvr2, rvr3) in 2 runs (run1, run2)"));
   EXPECT_THAT(made.text, HasSubstr("base   = \"rvr\""));
-  const Pooled turn = *figure(made, "turn made of the turn told").value;
+  const Pooled turn = *figure(made, "turn made, of that commanded").value;
   EXPECT_LT(turn.low, 0.8);
   EXPECT_GT(turn.high, 0.8);
   EXPECT_LT(turn.high - turn.low, 0.1);

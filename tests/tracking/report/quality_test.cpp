@@ -66,14 +66,14 @@ TEST(QualityTest, SaysWhatRobotsWroteDownAndHowLateTheyMoved) {
   EXPECT_TRUE(robots[2]["latency"].is_null());
   const std::string page = quality_html(run.reported());
   EXPECT_EQ(xml_trouble(page), "");
-  for (const char* said : {"62 +- 0.5", "cannot be told: its commands did not move it", "1.5, 2.5",
-                           "-3.5", "none: it was killed", "SCHED_FIFO 20"})
+  for (const char* said : {"62 +- 0.5", "cannot be determined: its commands did not move it",
+                           "1.5, 2.5", "-3.5", "none: it was killed", "SCHED_FIFO 20"})
     EXPECT_THAT(page, HasSubstr(said));
 }
 
 TEST(QualityTest, TellsWhatLogsAndFilmSayOfTheRobotsWorld) {
   MadeUpRun run;
-  EXPECT_THAT(quality_html(run.reported()), Not(HasSubstr("Way of that told")));
+  EXPECT_THAT(quality_html(run.reported()), Not(HasSubstr("Way, of that commanded")));
   Reality reality;
   reality.slip.way = {.gain = 0.875, .error = 0.0125, .seconds = 40, .reason = ""};
   reality.slip.turn.reason = "it would be known to 9.0 %, and 5 % are allowed";
@@ -83,7 +83,7 @@ TEST(QualityTest, TellsWhatLogsAndFilmSayOfTheRobotsWorld) {
   run.scored.reality = {reality, std::nullopt, std::nullopt};
   const std::string page = quality_html(run.reported());
   EXPECT_EQ(xml_trouble(page), "");
-  for (const char* said : {"Way of that told", "87.5 +- 1.2", "25.0 +- 3.0 of 400",
+  for (const char* said : {"Way, of that commanded", "87.5 +- 1.2", "25.0 +- 3.0 of 400",
                            "9.0 %, and 5 %", "0: 42.5, 1: 17.5"})
     EXPECT_THAT(page, HasSubstr(said));
   const Json report = Json::parse(quality_json(run.reported()));

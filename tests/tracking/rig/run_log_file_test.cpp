@@ -146,7 +146,7 @@ reasons = ["1.5 % of the cycles were skipped"]
                                             HasSubstr("E_CONFIG: `verdict` cannot be \"fine\""),
                                             HasSubstr("did you mean \"log\"?")));
   EXPECT_THAT(complaints_about("format = 1\n[[robot]]\nname = \"a\"\n[[robot]]\nname = \"a\"\n"),
-              ElementsAre(HasSubstr("E_CONFIG: two [[robot]] are of robot \"a\"")));
+              ElementsAre(HasSubstr("E_CONFIG: two [[robot]] are for robot \"a\"")));
 }
 
 TEST(RunLogFile, SaysWhichMissionsThereAre) {
@@ -156,7 +156,7 @@ TEST(RunLogFile, SaysWhichMissionsThereAre) {
   EXPECT_THAT(complaints_about("format = 1\nmission = \"gone.toml\"\n"),
               ElementsAre(AllOf(HasSubstr("run.toml:2:11: E_CONFIG: gone.toml: "))));
   EXPECT_THAT(complaints_about("format = 1\ndesign = \"d1\"\ncandidate = \"c7\"\n"),
-              ElementsAre(HasSubstr("run.toml:3:13: E_CONFIG: a candidate has its design")));
+              ElementsAre(HasSubstr("run.toml:3:13: E_CONFIG: a candidate belongs to a design")));
   EXPECT_THAT(complaints_about("format = [\n"),
               ElementsAre(HasSubstr("E_CONFIG: this is not TOML")));
 }

@@ -119,13 +119,13 @@ TEST(DamagedMcap, IsRefusedByItsCause) {
       {mcap(schema(1, "a/B") + many), "and 29992 more"},
       {mcap(schema(1, kImage) + many), "and 29992 more"},
       {mcap(schema(1, kImage) + channel(1, 1, kTopic, "protobuf") + image),
-       "`protobuf`, which is not read"},
+       "`protobuf`, which is not supported"},
       {mcap(schema(1, "foxglove.CompressedImage") + channel(1, 1, kTopic, "protobuf") + image),
        "no images in this bag"},
       {mcap(channel(1, 7, kTopic, "cdr") + image), "no images in this bag"},
-      {mcap(head + message(1, cdr_of(lies))), "pixels are not taken"},
+      {mcap(head + message(1, cdr_of(lies))), "pixels cannot be used"},
       {mcap(head + message(1, cdr_of(far))), "a row"},
-      {mcap(head + message(1, cdr_of(odd))), "xxx...`, which is not read"},
+      {mcap(head + message(1, cdr_of(odd))), "xxx...`, which is not supported"},
       {mcap(head + message(1, wide.substr(0, 40))), "ends too early"},
       {mcap(head + message(1, std::string("\0\7\0\0", 4) + wide.substr(4))), "00 07"},
       {mcap(head + message(1, packed_bytes("zstd", wide))), "zstd"},
@@ -238,7 +238,7 @@ TEST(DamagedDb3, IsRefusedByItsCause) {
          add(bag);
          bag.run("UPDATE topics SET serialization_format = 'protobuf'");
        },
-       "`protobuf`, which is not read"},
+       "`protobuf`, which is not supported"},
       {[&](WrittenDb3& bag) {
          add(bag);
          bag.run("UPDATE topics SET name = printf('%.*c', 100000, 'x'), type = 'a/B'");
@@ -275,7 +275,7 @@ TEST(DamagedDb3, IsRefusedByItsCause) {
            {"", "empty"},
            {"SQLite format 3", "is damaged"},
            {std::string("SQLite format 3\0", 16) + std::string(5000, '\1'), "is damaged"},
-           {"no database, but text", "or no SQLite file"},
+           {"no database, but text", "or not an SQLite file"},
            {whole_file(folder / "run0.db3").substr(0, 20'000), "is damaged"}}) {
     write_bytes(folder / "bad.db3", bytes);
     const ReadApart read = read_apart(folder / "bad.db3");

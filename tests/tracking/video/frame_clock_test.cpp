@@ -67,7 +67,7 @@ TEST(FrameClock, SeesMillisecondsThatAreCalledSeconds) {
   const SourceInfo source{.name = "run.mkv", .frame_rate = 30, .has_times = true};
   const Error clock = why_not(FrameClock::of(source, std::vector<double>{0, 33, 67, 100}));
   EXPECT_THAT(to_string(clock),
-              HasSubstr("run.mkv: E_TIMESTAMPS: its times say 33.3 s from frame to frame"));
+              HasSubstr("run.mkv: E_TIMESTAMPS: its times are 33.3 s from frame to frame"));
   EXPECT_THAT(to_string(clock), HasSubstr("`time_ms`"));
   // Slow pictures are slow pictures.
   EXPECT_TRUE(FrameClock::of(source, std::vector<double>{0, 1, 2, 3}));

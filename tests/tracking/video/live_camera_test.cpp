@@ -25,7 +25,7 @@ TEST(LiveCamera, KnowsItsWords) {
         "camera:0:1920x1080@0", "camera:0x"}) {
     const auto camera = open_camera(word);
     ASSERT_FALSE(camera) << word;
-    EXPECT_THAT(camera.error().message, HasSubstr("E_CONFIG: a camera is named like")) << word;
+    EXPECT_THAT(camera.error().message, HasSubstr("E_CONFIG: write a camera as")) << word;
   }
 }
 

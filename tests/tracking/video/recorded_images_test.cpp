@@ -162,7 +162,7 @@ TEST(ChaptersTest, OfAnotherSizeAreNone) {
   write_bytes(folder / "run" / "a2.mcap", bag.finished());
   const ReadVideo video = read_video(folder / "run");
   ASSERT_TRUE(video.error);
-  EXPECT_THAT(video.error->message, HasSubstr("one camera's film"));
+  EXPECT_THAT(video.error->message, HasSubstr("the film of one camera"));
 }
 
 }  // namespace

@@ -167,7 +167,8 @@ TEST(VideoFile, RefusesAnUnknownCodecByName) {
   EXPECT_THAT(error_of(read_video(folder / "odd.avi")), HasSubstr("its codec"));
   // Known to the library, but not to us.
   write_bytes(folder / "cinepak.avi", replaced(whole_file(folder / "a.avi"), "MJPG", "cvid"));
-  EXPECT_THAT(error_of(read_video(folder / "cinepak.avi")), HasSubstr("`cinepak` is not read"));
+  EXPECT_THAT(error_of(read_video(folder / "cinepak.avi")),
+              HasSubstr("`cinepak` is not supported"));
 }
 
 /// An .avi of sound alone: 8 kHz, 8 bits, a tenth of a second.
@@ -226,7 +227,7 @@ TEST(VideoFile, RefusesAbsurdSizesBeforeItMakesRoomForThem) {
   // 20 x 16400: few pixels, but no camera.
   write_bytes(folder / "c.avi", with_size(bytes, std::string_view("\x00\x14\x40\x10", 4)));
   EXPECT_THAT(error_of(read_video(folder / "c.avi")),
-              HasSubstr("pixels are not taken (at most 16384 a side"));
+              HasSubstr("pixels cannot be used (at most 16384 a side"));
 }
 
 }  // namespace

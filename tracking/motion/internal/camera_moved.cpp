@@ -17,17 +17,18 @@ namespace swarmsmith {
 namespace {
 
 constexpr Question kLens{"lens calibration", "px",
-                         "a lens that was solved badly: errors grow outwards"};
+                         "a bad lens calibration: errors grow towards the border"};
 constexpr Question kPlace{"floor tags fit the camera's place", "px",
-                          "a floor tag measured wrong, another focus"};
-constexpr Question kLeftOut{"worst floor tag, left out", "mm", "a floor tag measured wrong"};
+                          "a wrongly measured floor tag, another focus"};
+constexpr Question kLeftOut{"worst floor tag, left out", "mm", "a wrongly measured floor tag"};
 constexpr Question kSpread{"floor tags around the arena", "%",
-                           "a place that is guessed at the walls"};
+                           "positions that are guesses near the walls"};
 constexpr Question kEdited{"place file as it was made", "px", "an edited calibration"};
-constexpr Question kSurvey{"survey as it was calibrated", "", "a survey mended without its place"};
+constexpr Question kSurvey{"survey as it was calibrated", "",
+                           "a corrected survey without a new calibration of the place"};
 constexpr Question kMoved{"camera stayed where it was", "px", "a camera that was pushed"};
 constexpr Question kWatched{"floor tags seen until the end", "s",
-                            "a push that came after the last look at them"};
+                            "a push after they were last seen"};
 
 /// A camera that was pushed stays where it is, so a later look at the floor tags also reveals an
 /// earlier push.

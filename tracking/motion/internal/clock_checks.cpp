@@ -126,7 +126,7 @@ void check_counting(const FilmedCamera& film, bool length_agrees, Findings& find
   Check check{.name = kClockOfTheFilm,
               .subject = film.camera.name,
               .unit = "frames/s",
-              .catches = "a recorder that counts frames at a rate that is not the camera's"};
+              .catches = "a recorder that counts frames at another rate than the camera's"};
   if (film.record.time_source == TimeSource::Sidecar) return findings.add(std::move(check));
   const auto period = counted_period_s(film.record.frame_times);
   if (!period && film.record.time_source != TimeSource::FrameRate) {
@@ -152,7 +152,7 @@ void check_order(const FilmedCamera& film, const ClockSteps& steps, Findings& fi
               .value = static_cast<double>(steps.backwards),
               .limit = kMost,
               .unit = "",
-              .catches = "a film whose pictures were put together in another order"};
+              .catches = "a film with its pictures in the wrong order"};
   if (!steps.reason.empty()) {
     check.outcome = Check::Outcome::NotRun;
     check.value.reset();
@@ -172,12 +172,13 @@ void check_steps(const FilmedCamera& film, Findings& findings) {
   const ClockSteps steps = clock_steps(film);
   check_order(film, steps, findings);
   constexpr double kLimit_s = 0.15;
-  Check check{.name = "steps of the clock",
-              .subject = film.camera.name,
-              .value = steps.most_off_s,
-              .limit = kLimit_s,
-              .unit = "s",
-              .catches = "a clock that is set within the run, or frames lost from a counted film"};
+  Check check{
+      .name = "steps of the clock",
+      .subject = film.camera.name,
+      .value = steps.most_off_s,
+      .limit = kLimit_s,
+      .unit = "s",
+      .catches = "a clock that was set during the run, or frames lost by a recorder that counts"};
   if (!steps.reason.empty()) {
     check.outcome = Check::Outcome::NotRun;
     check.value.reset();

@@ -12,18 +12,17 @@
 namespace swarmsmith {
 namespace {
 
-constexpr Question kTwins{"frames with its number twice", "", "a second tag of its number"};
+constexpr Question kTwins{"frames with its number twice", "", "a second tag with its number"};
 constexpr Question kGap{"longest gap", "s", "a robot that was hidden, carried or lost"};
-constexpr Question kJumps{"jumps", "", "a robot that was carried; another tag of its number"};
+constexpr Question kJumps{"jumps", "", "a robot that was carried; another tag with its number"};
 constexpr Question kEnd{"gap around the last instant", "s", "an end that no camera saw"};
-constexpr Question kBridged{"bridged cycles", "%", "a path that is guessed between samples"};
-constexpr Question kGuessed{"cycles in long gaps", "", "a path that is guessed between samples"};
+constexpr Question kBridged{"bridged cycles", "%", "a path that is a guess between samples"};
+constexpr Question kGuessed{"cycles in long gaps", "", "a path that is a guess between samples"};
 constexpr Question kOutside{"samples in a row outside of the walls", "",
                             "a robot that was carried out; a wrong survey"};
 constexpr Question kOutliers{"dropped samples", "%", "reflections, blur, a second tag"};
-constexpr Question kCameras{"cameras agree", "mm",
-                            "a clock or a place of one camera that is wrong"};
-constexpr Question kByHand{"points by hand", "", "a person's word in place of the film"};
+constexpr Question kCameras{"cameras agree", "mm", "a wrong clock or place of one camera"};
+constexpr Question kByHand{"points by hand", "", "positions from a person instead of the film"};
 
 /// A period of the run in which a robot was not seen.
 struct Gap {

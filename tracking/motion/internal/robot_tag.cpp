@@ -236,7 +236,7 @@ double judge_tilt(const TaggedRobot& robot, const std::optional<TagTilt>& tilt, 
               .subject = robot.subject(),
               .limit = limit / kDegree,
               .unit = "degrees",
-              .catches = "a tag or robot that does not stand level"};
+              .catches = "a tag or robot that is not level"};
   const bool is_told = tilt && 3 * tilt->sigma < limit;
   if (!is_told) {
     check.outcome = Check::Outcome::NotRun;

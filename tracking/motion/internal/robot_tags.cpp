@@ -17,7 +17,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr Question kAgreement{"tags of one robot agree", "mm",
-                              "a tag that came loose, or was mounted anew"};
+                              "a tag that came loose, or was mounted again"};
 
 /// Some errors stay the same within a second and are not independent in each picture, so the limit
 /// is four sigmas of one picture.

@@ -176,7 +176,7 @@ class Case {
                 .subject = robot_.setup.name,
                 .limit = kHeading_rad / kDegree,
                 .unit = "degrees",
-                .catches = "a tag that was put back turned, or on another robot"};
+                .catches = "a tag that was turned, or put on another robot"};
     if (!robot_.has_yaw) return skip(std::move(check), "no straight run was filmed");
     if (!fit_.knows_heading) return skip(std::move(check), kTooLittle);
     const double off = std::fabs(fit_.turned_rad);
@@ -201,7 +201,7 @@ class Case {
                 .subject = robot_.setup.name,
                 .limit = {},
                 .unit = "mm",
-                .catches = "a tag that sits elsewhere than calibrated"};
+                .catches = "a tag that is not where it was calibrated"};
     if (!robot_.has_offset) return skip(std::move(check), "its tag was taken for its centre");
     if (!fit_.knows_place)
       return skip(std::move(check), "it turned too little on the spot where it touched nothing");

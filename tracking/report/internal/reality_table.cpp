@@ -6,12 +6,12 @@ namespace swarmsmith {
 namespace {
 
 std::string gain_text(const Gain& gain) {
-  if (!gain.gain) return "cannot be told: " + gain.reason;
+  if (!gain.gain) return "cannot be determined: " + gain.reason;
   return fmt::format("{:.1f} +- {:.1f}", 100 * *gain.gain, 100 * gain.error);
 }
 
 std::string neighbours_text(const NeighboursSeen& seen) {
-  if (!seen.is_told()) return "cannot be told: " + seen.reason;
+  if (!seen.is_told()) return "cannot be determined: " + seen.reason;
   return fmt::format("{:.1f} +- {:.1f} of {}", 100 * seen.miss_rate(), 100 * seen.error,
                      seen.there);
 }
@@ -27,13 +27,12 @@ std::string states_text(const Reality& reality) {
 
 HtmlTable reality_table(const RunFindings& run) {
   HtmlTable table{.caption =
-                      "What logs and film together tell of the robots' world: how far treads took "
-                      "the robots of what they were told, and how many of the robots that were in "
-                      "reach a robot did not know of. `swarmsmith track profile` makes a "
-                      "simulator's profile of it.",
+                      "What logs and film show together: which part of the commanded way and turn "
+                      "the robots made, and how many of the robots in reach a robot did not "
+                      "notice. `swarmsmith track profile` makes a simulator's profile of it.",
                   .columns = {{"Robot"},
-                              {"Way of that told (%)"},
-                              {"Turn of that told (%)"},
+                              {"Way, of that commanded (%)"},
+                              {"Turn, of that commanded (%)"},
                               {"Neighbours missed (%)"},
                               {"Seconds by state"}}};
   for (const RobotFinding& robot : run.robots) {

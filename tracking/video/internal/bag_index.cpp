@@ -28,8 +28,8 @@ class Reading {
                            : std::nullopt;
     if (!index) return damaged(kVersion.size());
     if (*index == 0) {
-      return unreadable("has no index: its recording was not ended; `rosbag reindex` makes one",
-                        name_);
+      return unreadable(
+          "has no index, because its recording was not ended; `rosbag reindex` makes one", name_);
     }
     if (!text_in(head->fields, "encryptor").empty()) {
       return unreadable("is encrypted; `rosbag decrypt` makes one that can be read", name_);

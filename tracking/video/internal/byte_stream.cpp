@@ -103,7 +103,7 @@ Expected<ByteStream> ByteStream::reading(const std::string& path) {
   struct stat about {};
   if (::stat(path.c_str(), &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode)) {
     return Unexpected(error_of(IssueCode::VideoUnreadable,
-                               "is a pipe or a device, and a video is read more than once; write "
+                               "is a pipe or a device, but a video is read more than once; write "
                                "it to a file first",
                                path));
   }

@@ -52,11 +52,11 @@ class Reading {
   /// Returns the reason why the camera ended; empty if there are no more pictures.
   std::string read_all() {
     if (!has_videoio()) {
-      return "live cameras are read by OpenCV's library videoio, which is not here: the archive of "
-             "this program has it not, and the Debian package needs it";
+      return "live cameras need OpenCV's library videoio, which is missing here: the archive of "
+             "this program does not include it, the Debian package installs it";
     }
     camera_.emplace();
-    if (!open()) return "OpenCV cannot open it; is it there, and free?";
+    if (!open()) return "OpenCV cannot open it; is it connected, and not in use?";
     has_driver_times_ = camera_->getBackendName() == "V4L2";
     rate_ = camera_->get(cv::CAP_PROP_FPS);
     constexpr double kMostRate = 1000;

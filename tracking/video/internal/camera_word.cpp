@@ -57,8 +57,8 @@ Expected<CameraWord> camera_word(const std::string& word) {
     }
   }
   if (!right || !rest.empty()) {
-    return Unexpected(error_of(IssueCode::Config,
-                               "a camera is named like camera:0 or camera:0:1920x1080@30", word));
+    return Unexpected(
+        error_of(IssueCode::Config, "write a camera as camera:0 or camera:0:1920x1080@30", word));
   }
   camera.index = index;
   return camera;

@@ -79,8 +79,8 @@ class Chapters final : public FrameSource {
     if (info.size != info_.size || info.has_times != info_.has_times) {
       return Unexpected(error_of(
           IssueCode::VideoUnreadable,
-          fmt::format("is {} x {} pixels{}, the chapter before {} x {}{}; a folder of chapters "
-                      "holds one camera's film",
+          fmt::format("is {} x {} pixels{}, but the chapter before {} x {}{}; a folder of chapters "
+                      "must contain the film of one camera",
                       info.size.width, info.size.height, info.has_times ? "" : " without times",
                       info_.size.width, info_.size.height, info_.has_times ? "" : " without times"),
           words_[at_]));

@@ -37,11 +37,12 @@ Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_bas
                              const std::string& name) {
   const AVCodec* const found = avcodec_find_decoder(about.codec_id);
   if (found == nullptr || !is_taken(found->name)) {
-    return Unexpected(error_of(IssueCode::VideoUnreadable,
-                               fmt::format("its codec `{}` is not read; h264, hevc, mjpeg, vp9, "
-                                           "av1, ffv1 and some others are",
-                                           avcodec_get_name(about.codec_id)),
-                               name));
+    return Unexpected(
+        error_of(IssueCode::VideoUnreadable,
+                 fmt::format("its codec `{}` is not supported; h264, hevc, mjpeg, vp9, "
+                             "av1, ffv1 and some others are",
+                             avcodec_get_name(about.codec_id)),
+                 name));
   }
   Codec codec(avcodec_alloc_context3(found));
   int code = avcodec_parameters_to_context(codec.get(), &about);

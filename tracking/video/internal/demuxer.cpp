@@ -99,8 +99,8 @@ Expected<Demuxer> Demuxer::open(ByteStream bytes, const std::string& name) {
     // In .mp4 and .mov files the index is written last, when the recording ends.
     if (words.find("moov atom not found") != std::string::npos) {
       return unreadable(
-          "its index is missing (moov): the recording was not ended properly, or the file is not "
-          "whole. Copy it again from the camera, which may repair it when it is switched on; "
+          "its index is missing (moov): the recording was not ended properly, or the file is "
+          "incomplete. Copy it again from the camera, which may repair it when it is switched on; "
           "record .mkv, which can be read without its end",
           name);
     }
@@ -171,7 +171,7 @@ Expected<PacketTable> packets_of(Demuxer& demuxer, const std::string& name) {
   }
   if (table.times.empty()) {
     const std::string words = take_message();
-    return unreadable("there is not one frame in it" + (words.empty() ? "" : ": " + words), name);
+    return unreadable("it has no frame" + (words.empty() ? "" : ": " + words), name);
   }
   std::sort(table.times.begin(), table.times.end());
   if (demuxer.is_avi() && table.times.front() >= 0 &&

@@ -39,7 +39,7 @@ Expected<av::PacketPtr> packet_of(const std::string& path) {
   auto bytes = av::ByteStream::reading(path);
   if (!bytes) return Unexpected(bytes.error());
   if (bytes->size() == 0) return unreadable("the file is empty", path);
-  if (bytes->size() > kMostBytes) return unreadable("an image of more than 400 MB", path);
+  if (bytes->size() > kMostBytes) return unreadable("is larger than 400 MB", path);
   av::PacketPtr packet(av_packet_alloc());
   const int size = static_cast<int>(bytes->size());
   if (av_new_packet(packet.get(), size) < 0) return unreadable("no memory for it", path);
@@ -77,8 +77,8 @@ class ImageFolder final : public FrameSource {
       picture_ = std::move(*picture);
       if (picture_->width != info_.size.width || picture_->height != info_.size.height) {
         return unreadable(
-            fmt::format("is {} x {} pixels, the images before it {} x {}; a folder "
-                        "holds pictures of one camera, all of one size",
+            fmt::format("is {} x {} pixels, but the images before it {} x {}; a folder "
+                        "must contain pictures of one camera, all of one size",
                         picture_->width, picture_->height, info_.size.width, info_.size.height),
             file);
       }

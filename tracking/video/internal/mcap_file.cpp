@@ -136,7 +136,7 @@ Expected<std::unique_ptr<FrameSource>> open_mcap(const BagWord& word) {
   if (types.empty() && records.is_cut()) {
     return unreadable(
         "ends before its first message: the recording was not ended properly, or the "
-        "file is not whole; copy it again",
+        "file is incomplete; copy it again",
         word.file);
   }
   const auto topic = image_topic(types, word);
@@ -155,7 +155,7 @@ Expected<std::unique_ptr<FrameSource>> open_mcap(const BagWord& word) {
   }
   if (encoding != "cdr" && encoding != "ros1") {
     return unreadable("topic " + *topic + " has messages in the encoding `" + shortened(encoding) +
-                          "`, which is not read; cdr (ROS 2) and ros1 are",
+                          "`, which is not supported; cdr (ROS 2) and ros1 are",
                       word.file);
   }
   auto second = av::ByteStream::reading(word.file);

@@ -89,12 +89,12 @@ void Records::rewind() {
 }
 
 Unexpected Records::damaged(const std::string& what) const {
-  return Unexpected(error_of(
-      IssueCode::VideoUnreadable,
-      fmt::format("is damaged at byte {}: {}; copy it again, or `mcap recover` makes one of what "
-                  "is left",
-                  at_, what),
-      name_));
+  return Unexpected(
+      error_of(IssueCode::VideoUnreadable,
+               fmt::format("is damaged at byte {}: {}; copy it again, or repair it with "
+                           "`mcap recover`",
+                           at_, what),
+               name_));
 }
 
 Expected<std::optional<Record>> Records::next() {
@@ -181,7 +181,8 @@ Expected<void> Records::unpack(const Record& chunk) {
     if (!is_right) return damaged("a chunk cannot be unpacked");
     inside_ = unpacked_;
   } else {
-    return damaged("a chunk is packed with `" + shortened(packing) + "`; zstd and lz4 are read");
+    return damaged("a chunk is packed with `" + shortened(packing) +
+                   "`; zstd and lz4 are supported");
   }
   if (crc != 0 && crc != crc_of(inside_)) return damaged("a chunk's checksum is wrong");
   return {};

@@ -98,7 +98,7 @@ Expected<void> check_size(int width, int height, const std::string& where,
   if (is_taken(width, height, most_pixels)) return {};
   return Unexpected(error_of(
       IssueCode::VideoUnreadable,
-      fmt::format("pictures of {} x {} pixels are not taken (at most {} a side, {} megapixels)",
+      fmt::format("pictures of {} x {} pixels cannot be used (at most {} a side, {} megapixels)",
                   width, height, kMostSide, most_pixels / 1'000'000),
       where));
 }

@@ -126,9 +126,8 @@ class RecordedImages final : public FrameSource {
     // film does not cover are refused anyway.
     if (messages_->is_cut()) {
       info_.oddities.emplace_back(
-          "it was cut off: the recording was not ended properly, or the file is not whole, and "
-          "what "
-          "came last is missing");
+          "it was cut off: the recording was not ended properly, or the file is incomplete, and "
+          "what came last is missing");
     }
   }
 

@@ -51,10 +51,11 @@ constexpr std::array kEncodings = {
 Expected<av::FramePtr> raw_picture(const RosImage& message, const std::string& name) {
   const auto known = std::ranges::find(kEncodings, message.encoding, &Encoding::name);
   if (known == kEncodings.end()) {
-    return unreadable("its images have the encoding `" + shortened(message.encoding) +
-                          "`, which is not read; mono8, mono16, bgr8, rgb8, bgra8, rgba8, bayer_ "
-                          "and yuv422 are",
-                      name);
+    return unreadable(
+        "its images have the encoding `" + shortened(message.encoding) +
+            "`, which is not supported; mono8, mono16, bgr8, rgb8, bgra8, rgba8, bayer_ "
+            "and yuv422 are",
+        name);
   }
   const auto width = static_cast<int>(message.width);
   const auto height = static_cast<int>(message.height);

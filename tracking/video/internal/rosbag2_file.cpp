@@ -78,7 +78,7 @@ std::string complaint(sqlite3* base) {
   const std::string words = shortened(sqlite3_errmsg(base));
   switch (sqlite3_errcode(base)) {
     case SQLITE_NOTADB:
-      return "is damaged, or no SQLite file: " + words;
+      return "is damaged, or not an SQLite file: " + words;
     case SQLITE_ERROR:
       return "is not a bag of ROS 2: " + words;
     case SQLITE_INTERRUPT:
@@ -206,7 +206,7 @@ Expected<std::unique_ptr<FrameSource>> open_rosbag2(const BagWord& word) {
   const Topic& topic = topics->at(*name);
   if (topic.form != "cdr") {
     return unreadable("topic " + *name + " has messages in the form `" + shortened(topic.form) +
-                          "`, which is not read; cdr is",
+                          "`, which is not supported; cdr is",
                       word.file);
   }
   auto query = query_of(base->get(),

@@ -35,7 +35,7 @@ Expected<VideoChoice> video_choice(const std::string& path, ImageSize size,
     if (path.ends_with(container.ending)) choice.container = &container;
   }
   if (choice.container == nullptr) {
-    return config_error("a video's name ends in .mkv, .mp4 or .avi", path);
+    return config_error("a video's name must end in .mkv, .mp4 or .avi", path);
   }
   for (const CodecChoice& codec : kCodecs) {
     if (options.codec == codec.name) choice.codec = &codec;
@@ -57,10 +57,10 @@ Expected<VideoChoice> video_choice(const std::string& path, ImageSize size,
   }
   constexpr double kMostRate = 10'000;
   if (!(options.frame_rate >= 0.01 && options.frame_rate <= kMostRate)) {
-    return config_error("a frame rate is between 0.01 and 10000 a second", path);
+    return config_error("a frame rate must be between 0.01 and 10000 a second", path);
   }
   if (options.quality < 1 || options.quality > 100) {
-    return config_error("quality is between 1 and 100", path);
+    return config_error("the quality must be between 1 and 100", path);
   }
   if (options.live && choice.container->ending != ".mkv") {
     return config_error("a recording that survives being cut off must be a .mkv", path);

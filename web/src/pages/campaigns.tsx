@@ -9,7 +9,7 @@ import { href } from "../route";
 import { eta_of, look_list } from "../shell";
 import { Campaign, Design, Event, Live } from "../types";
 
-export const kPause = "Evaluations that run now end and count; nothing more is given out until you resume. Nothing is lost.";
+export const kPause = "Running evaluations finish and count; no new ones start until you resume. Nothing is lost.";
 
 /// Whether the design has ended.
 export function is_over({ state }: Design): boolean { return state === "finished" || state === "stopped"; }
@@ -51,7 +51,7 @@ function grid({ c, designs }: Campaign) {
     const compared = tested.length > 0 ? tested : here;
     const best = Math.max(...compared.map((one) => told_mean(one) ?? -Infinity));
     return <div class="mission">
-      <h3>{words(mission)} <small>mean score of the best so far, in its tests once it has them; higher is better</small></h3>
+      <h3>{words(mission)} <small>mean score of the best so far, from its tests if it has any; higher is better</small></h3>
       {in_order(here.map((one) => one.method)).map((method) => <div class="method">
         <div class="method-name">{method}</div>
         <div class="cards">{here.filter((one) => one.method === method).sort((a, b) => a.repetition - b.repetition)
@@ -74,14 +74,14 @@ function events({ c, last_event }: Campaign) {
     <Table name={"e" + c} caption="Events, newest first" rows={one.events} page_size={12}
       row_key={({ kind, seq, at }) => `${kind}-${seq}-${at}`}
       row_class={(event) => event.severity === "error" && "bad"}
-      empty="No failure, no command, no conflict. Progress is not an event."
+      empty="No failures, commands or conflicts. Progress is not an event."
       columns={[{ key: "at", label: "when" }, "severity", { key: "kind", label: "what", value: (one) => words(one.kind) },
         { key: "data", label: "details", value: (one) => said(one.data) }]} />} />;
 }
 
 /// The convergence of a campaign or of a design. It begins at the end of the first iteration.
 export function convergence(c: string, designs: Design[], design?: string) {
-  const none = <Empty>{designs.every(is_over) ? "None." : "No iteration has ended yet: convergence comes after the first."}</Empty>;
+  const none = <Empty>{designs.every(is_over) ? "None." : "No iteration has ended yet: convergence is shown after the first."}</Empty>;
   return designs.some(({ state, iteration }) => iteration > (state === "racing" || state === "interrupted" ? 1 : 0))
     ? <Figure c={c} kind="convergence" options={{ design }} name="Convergence" version={version_of(designs)} missing={none} /> : none;
 }
@@ -110,10 +110,10 @@ function campaign_panels(live: Live, campaign: Campaign) {
         ["experiments", used_of(campaign)],
         state === "running" && live.running && ["ETA", eta_of(live, campaign.eta_s), "the rest of the budgets at the rate of the last minute"],
         ["store", <span class="small">{store}</span>],
-        ["campaign's digest", <code class="small">{campaign.digest.slice(0, 12) || "–"}</code>, "of all that decides the answer; swarmsmith digest prints that of the answer"]])}
-      {state === "interrupted" && <Empty>It is not finished, and no process works on it here. {run} continues it.</Empty>}
+        ["campaign's digest", <code class="small">{campaign.digest.slice(0, 12) || "–"}</code>, "of everything that decides the answer; swarmsmith digest prints that of the answer"]])}
+      {state === "interrupted" && <Empty>It is not finished, but no process works on it here. {run} continues it.</Empty>}
       {designs.length ? grid(campaign)
-        : <Empty>This store holds no design yet. {run} begins them, <code>swarmsmith import</code> brings results from elsewhere.</Empty>}
+        : <Empty>This store has no design yet. {run} starts them; <code>swarmsmith import</code> adds results from elsewhere.</Empty>}
     </Panel>
     {designs.length > 0 && <Panel title="Convergence: mean score of the best, over experiments used">{convergence(c, designs)}</Panel>}
     <Panel title="Events, newest first">{events(campaign)}</Panel>

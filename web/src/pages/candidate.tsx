@@ -71,7 +71,7 @@ function shown(c: string, { candidate: one, ancestors, scores, later }: Answer) 
       </Panel>
       <Panel title="Later scores">
         <Table name="l" page_size={15} caption={`later scores of ${id}`} rows={later} row_key={(row) => String(row.id)}
-          empty={["None. Winners are tested at a design's end; any candidate is scored by ", <code>swarmsmith evaluate {id} --store {store_word()} --seeds 1-10</code>]}
+          empty={["None. Winners are tested at a design's end; you can score any candidate: ", <code>swarmsmith evaluate {id} --store {store_word()} --seeds 1-10</code>]}
           columns={["purpose", "source", "seed", "score", { key: "run", show: watch }]} />
       </Panel>
       {parameters.length > 0 && <Panel title="Parameters">

@@ -31,7 +31,7 @@ export class Data extends Component<PageProps, State> {
     const csv = () => ask(path_of(`${this.props.params.c}/query`, { sql: this.state.asked, format: "csv" }))
       .then((one) => save_as("query.csv", one.data as string), (error) => this.setState({ error }));
     return <div>
-      <div class="tools"><span role="status">{count(rows.length, "row")}{truncated && <b class="warn">, cut after 10{"\u2009"}000 rows or 10 s: add a WHERE or a LIMIT, or take the command line</b>}, {duration(seconds)}</span>
+      <div class="tools"><span role="status">{count(rows.length, "row")}{truncated && <b class="warn">, cut after 10{"\u2009"}000 rows or 10 s: add a WHERE or a LIMIT, or use the command line</b>}, {duration(seconds)}</span>
         <Quiet act={csv}>CSV of all</Quiet></div>
       <Table<Cell[]> name="q" caption="Result" rows={rows} row_key={(row) => rows.indexOf(row)} empty="No rows."
         columns={columns.map((key, i) => ({ key, label: key, value: (row) => row[i] }))} />
@@ -48,9 +48,9 @@ export class Data extends Component<PageProps, State> {
             <textarea rows={6} {...{ spellcheck: false }} aria-label="SQL" value={sql} placeholder="SELECT * FROM v_designs"
               onInput={(event) => this.setState({ sql: typed(event) })}
               onKeyDown={(event) => { if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) ask_now(event); }} />
-            <div class="tools"><button type="submit" class="main" disabled={!sql.trim()}>Ask</button><small>or Ctrl+Enter; one statement, at most 10 s and 10{"\u2009"}000 rows; nothing can be written</small></div>
+            <div class="tools"><button type="submit" class="main" disabled={!sql.trim()}>Ask</button><small>or Ctrl+Enter; one statement, at most 10 s and 10{"\u2009"}000 rows; read-only</small></div>
           </form>
-          <p class="tools"><span class="faint">To begin with:</span> {kViews.map((name) => <Quiet act={() => this.#first(name)}>{name.slice(2).replace("_", " ")}</Quiet>)}</p>
+          <p class="tools"><span class="faint">Examples:</span> {kViews.map((name) => <Quiet act={() => this.#first(name)}>{name.slice(2).replace("_", " ")}</Quiet>)}</p>
         </Panel>
         <Panel title="Views, the public schema">
           <Get<{ views: View[] }> path={`${c}/views`} render={(one) => <div class="views">{one.views.map(({ name, text, columns }) => <details key={name}>
@@ -62,7 +62,7 @@ export class Data extends Component<PageProps, State> {
         <Panel wide title="Result">
           {error && <Failure error={error} />}
           {asked ? <Get<Rows> key={asked} path={path_of(`${c}/query`, { sql: asked })} render={(rows) => this.#result(rows)} />
-            : <Empty>Nothing was asked yet.</Empty>}</Panel>
+            : <Empty>No query yet.</Empty>}</Panel>
       </div>
     </div>;
   }

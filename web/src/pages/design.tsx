@@ -12,7 +12,7 @@ export function design_title(design: Design) {
   return <h1>{link(design.id)} <small>{words(design.mission)} · {design.method} · repetition {design.repetition}</small> {state_word(design)}</h1>;
 }
 
-export const kNoRace = "No race: this method takes what it is given, or what it draws.";
+export const kNoRace = "No race: this method uses given or randomly drawn candidates.";
 
 /// The commands for a design, each with a confirmation.
 class Acts extends Component<{ c: string; design: Design }, { more: string }> {
@@ -25,10 +25,10 @@ class Acts extends Component<{ c: string; design: Design }, { more: string }> {
     return <div class="tools">
       {act("Resume", "It will get work again.", { is_offered: open && !!paused })}
       {act("Pause", kPause, { is_offered: open && !paused })}
-      {act("Extend", [<label>Experiments more: <input type="number" min="1" step="1" value={more} onInput={(event) => this.setState({ more: typed(event) })} /></label>,
-        <p>From {whole(budget)} to {whole(budget + (Number(more) || 0))}. This cannot be taken back; the command is kept in the store, so that the same answer comes out again.</p>],
+      {act("Extend", [<label>More experiments: <input type="number" min="1" step="1" value={more} onInput={(event) => this.setState({ more: typed(event) })} /></label>,
+        <p>From {whole(budget)} to {whole(budget + (Number(more) || 0))}. This cannot be undone. The store keeps the command, so that the campaign gives the same answer again.</p>],
         { path: `extend?budget=${Number(more)}`, of: "Extend the budget of" })}
-      {act("Cancel", "Its race ends after the step that runs, and the best so far is its winner. This cannot be taken back.", { danger: true, is_offered: open })}
+      {act("Cancel", "Its race ends after the current step, and the best so far is its winner. This cannot be undone.", { danger: true, is_offered: open })}
     </div>;
   }
 }
@@ -50,13 +50,13 @@ function iterations_table(c: string, { id, version }: Design, { iterations, elit
     });
     return <Table name="i" caption="Iterations" sort="-iteration" rows={rows} empty="It has not begun." columns={[
       { key: "iteration", show: ({ iteration, round }) => <a href={`${place_of(id)}/race/${iteration}`}>{round ?? iteration}</a> },
-      { key: "configurations", label: "candidates", title: "with the elites of the iteration before" },
+      { key: "configurations", label: "candidates", title: "including the elites of the previous iteration" },
       "steps",
       { key: "used", label: "experiments" },
       { key: "alive", label: "alive at the end" },
       { key: "mean", label: "best mean" },
       "best",
-      { key: "markers", label: "tests", title: "a letter a step: x no test, - some dropped, = none dropped, ! would drop elites, . none had to run",
+      { key: "markers", label: "tests", title: "one letter per step: x no test, - some dropped, = none dropped, ! would drop elites, . none had to run",
         show: (one) => <code class="markers">{one.markers}</code> }]} />;
   }} />;
 }
@@ -72,7 +72,7 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
       ["experiments", [<Bar of={design} name="experiments used" />, used_of(design)]],
       [stage ? "search" : "iteration", [stage ?? whole(design.iteration), !over && alive !== null && <small> {whole(alive)} alive</small>]],
       ["best", best ? link(best) : "none yet"],
-      ["mean in the race", number(design.best_mean), "over the pairs that the best has met, which chose it; higher is better"],
+      ["mean in the race", number(design.best_mean), "over the pairs on which the best has run; it was chosen by this mean; higher is better"],
       ["mean in tests on fresh seeds", tests ? [number(tests.mean), " ", <small>{number(tests.low)} to {number(tests.high)}, {count(tests.n, "run")}</small>]
         : <small>{over ? "none" : "after the race"}</small>, "mean and its 95 % interval"],
       row.reason && ["why it ended", <span class="small">{row.reason}</span>]])}
@@ -81,8 +81,8 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
         {convergence(c, [design], id)}</Panel>
       <Panel title={best ? `${over ? "The winner" : "Best so far"}: ${best}` : "Best so far"}
         command={best ? command(`show ${best}`) : ""} tools={machine && <Copy what="Copy its text" text={machine.text} />}>
-        {!best ? <Empty>None yet: it comes with the end of the first step.</Empty>
-          : machine && !machine.flavour ? <Empty>A configuration of a program: its words are below.</Empty> : <Machine of={best} />}
+        {!best ? <Empty>None yet: there is one after the first step.</Empty>
+          : machine && !machine.flavour ? <Empty>A configuration of a program: its parameters are below.</Empty> : <Machine of={best} />}
         {machine?.text && <details open={!machine.flavour}><summary>Its text</summary><pre>{machine.text}</pre></details>}
       </Panel>
       <Panel wide title="Iterations, newest first">
@@ -90,10 +90,10 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
       </Panel>
       <Panel title={elites_title}>
         <Table name="el" caption={elites_title} rows={elites.filter(({ iteration }) => iteration === last)}
-          empty={over ? "None." : "No iteration has ended yet: elites come after the first."} columns={[
+          empty={over ? "None." : "No iteration has ended yet: there are elites after the first."} columns={[
             "rank", "candidate",
             { key: "mean", label: "mean score", title: "higher is better" },
-            { key: "n", label: "pairs", title: "(instance, seed) that it has met" }]} /></Panel>
+            { key: "n", label: "pairs", title: "(instance, seed) on which it has run" }]} /></Panel>
       <Panel title="Commands that people gave">
         <Table name="co" caption="Commands" rows={commands} row_key={(one) => one.number}
           empty="None." columns={[
@@ -106,7 +106,7 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
 export function DesignPage({ params: { c }, campaign, design }: PageProps) {
   return <div>
     <div class="panel-head">{design_title(design)}{campaign.may_act && <Acts c={c} design={design} />}</div>
-    {!design.iteration && design.state === "waiting" && <Empty>It waits for its turn: nothing of it has been evaluated ({stage_of(design)}).</Empty>}
+    {!design.iteration && design.state === "waiting" && <Empty>It waits for its turn: it has no evaluations yet ({stage_of(design)}).</Empty>}
     <Get<DesignAnswer> path={`${c}/designs/${design.id}`} keep version={`${design.version} ${design.state} ${design.paused}`} render={(answer) => shown(c, design, answer)} />
   </div>;
 }

@@ -60,8 +60,8 @@ function draw_past(pen: Pen, history: History): void {
 }
 
 function past(history: History) {
-  if (history.t_s.length < 2) return <Empty>The process has just begun: its history comes second by second.</Empty>;
-  const label = "Line: evaluations a second (left). Areas: share of the slots' time, busy and by cause (right), colours as above. It begins with this process.";
+  if (history.t_s.length < 2) return <Empty>The process has just started: its history grows every second.</Empty>;
+  const label = "Line: evaluations a second (left). Areas: share of the slots' time, busy and by cause (right), colours as above. From the start of this process on.";
   return <div><Canvas height={() => 190} draw={(pen) => draw_past(pen, history)} label={label} /><p><small>{label}</small></p></div>;
 }
 
@@ -83,10 +83,10 @@ function workers_table(workers: Worker[], is_running: boolean) {
     empty={[`No worker ${is_running ? "is" : "has ever been"} connected: `, <code>swarmsmith worker --coordinator {store_word()}.coordinator</code>, " on any host that has this file."]}
     columns={[
       { key: "number", label: "worker" }, { key: "state", show: state_word }, "host", "job", "slots",
-      { key: "running", title: "evaluations, as it last said" },
+      { key: "running", title: "evaluations, as it last reported" },
       { key: "held", title: "leases" },
       { key: "done_per_s", label: "evals/s", show: (one) => number(one.done_per_s, 3) },
-      { key: "busy", show: (one) => percent(one.busy), title: "share of its slots' time, over the last seconds" },
+      { key: "busy", show: (one) => percent(one.busy), title: "used share of its slots' time, over the last seconds" },
       { key: "last_heard_s", label: "silent for", show: (one) => duration(one.last_heard_s) },
       "done",
       { key: "failed", show: ({ failed }) => <b class={failed ? "warn" : "faint"}>{whole(failed)}</b> },

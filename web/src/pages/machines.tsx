@@ -20,7 +20,7 @@ export function Machines({ query, campaign: { designs } }: PageProps) {
       {choice_of("Method", designs.map((one) => one.method))}
       <span class="faint" role="status">{drawn.length} of {designs.length} designs</span>
     </div>}
-    {drawn.length === 0 && <Empty>{shown.length > 0 ? "No design has a best candidate yet: it comes with the first iteration's end." : "No design is of this mission and method."}</Empty>}
+    {drawn.length === 0 && <Empty>{shown.length > 0 ? "No design has a best candidate yet: there is one after the first iteration." : "No design has this mission and method."}</Empty>}
     <div class="columns">{drawn.slice(0, most).map(({ id, mission, method, repetition, best, state, ...one }) =>
       <Panel title={`${id}: ${words(mission)}, ${method}, ${repetition}`}>
         <p>{link(best!)} <span class="faint">mean {number(one.test_mean ?? one.best_mean)} {one.test_runs > 0 ? `in ${count(one.test_runs, "test")}` : "in its races"} (higher is better), {state}</span></p>

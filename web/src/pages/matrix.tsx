@@ -40,7 +40,7 @@ export function Methods({ c, version, of }: { c: string; version: string; of: st
     <Get<Answer> path={`${c}/comparison/matrix`} version={version} render={({ matrices, said }) => <div>
       {matrices.map((one) => table(one, of))}
       <p class="faint">Mean of the tests, its 95 % interval, <b>rank</b>, <i>letters</i>: methods of a mission that share one do not differ at 5 %
-        (rank-sum tests, Holm's correction); {said}. A mean shows its designs.</p></div>} />
+        (rank-sum tests, Holm's correction); {said}. Click a mean to see its designs.</p></div>} />
     {of && designs_of(c, version, of)}
   </Panel></div>;
 }

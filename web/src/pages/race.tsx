@@ -189,7 +189,7 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
         onDblClick: (event: MouseEvent) => { const it = this.#at(event); if (it) watch(it); },
         onKeyDown: this.#key,
       }} />
-      <p class="hover-line" aria-hidden="true">{at ? matrix.sentence(at) : "Point at a cell, or move with the arrows: its score, rank and seed stand here."}</p>
+      <p class="hover-line" aria-hidden="true">{at ? matrix.sentence(at) : "Point at a cell, or move with the arrows: its score, rank and seed appear here."}</p>
       <p id="race-help" class="unseen">Arrows move by a cell, with shift by ten; Home and End to the first and last step, Page Up and Page Down to the best and last candidate; Enter watches the run.</p>
     </div>;
   }
@@ -198,7 +198,7 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
 /// The evaluation's id as users type it.
 function evaluation_id(candidate: number, pair: number): string { return `e${candidate * 100000 + pair}`; }
 
-const kLegend = [["viridis", "rank, best to worst"], ["dropped-end", "dropped here, a whole cell: rejected"], ["gone", "no longer in the race"], ["elite", "elite before (left), after (right)"]];
+const kLegend = [["viridis", "rank, best to worst"], ["dropped-end", "dropped here; whole cell: rejected"], ["gone", "no longer in the race"], ["elite", "elite before (left), after (right)"]];
 
 export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
   #matrix?: Matrix;
@@ -261,7 +261,7 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
         ["candidate", link("c" + race.candidates[row])],
         ["score", number(score, 6), "higher is better"],
         ["rank", [number(matrix.rank(at)), <small> of {race.ranked[step]}</small>]]])}
-      <p>Step {race.steps[step]}, instance {race.instances[step]}, seed {race.seeds[step]}. {dropped !== null ? `Dropped after step ${dropped}: ${race.reasons[row]}.` : race.elite_after[row] ? "An elite after this race." : race.ended ? "It stayed to the end." : "It is alive."}</p>
+      <p>Step {race.steps[step]}, instance {race.instances[step]}, seed {race.seeds[step]}. {dropped !== null ? `Dropped after step ${dropped}: ${race.reasons[row]}.` : race.elite_after[row] ? "An elite after this race." : race.ended ? "It survived the race." : "It is alive."}</p>
       {!matrix.has_run(at) ? <p class="faint">It was not evaluated here.</p> : [
         <p class="tools"><button class="main" onClick={() => watch(at)}>Watch this run</button><Copy text={command(`explain ${id}`)} /></p>,
         <p><button aria-expanded={!!is_asked} onClick={() => this.setState({ is_asked: !is_asked })}>Who made it</button></p>,
@@ -286,7 +286,7 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
     // During a race: the newest iteration that has a step, unless another one is asked for.
     return <div>
       {design_title(design)}
-      {design.iteration === 0 ? <Empty>{design.state === "finished" ? kNoRace : "No step of the race has ended yet: its cells come one by one."}</Empty>
+      {design.iteration === 0 ? <Empty>{design.state === "finished" ? kNoRace : "No step of the race has ended yet: its cells appear one by one."}</Empty>
         : <Get<Race> path={path_of(`${params.c}/designs/${id}/race`, { iteration: asked, rows: query.rows })} keep
           version={asked && asked < design.iteration ? "ended" : design.version} render={(race) => <div>{choice(race.iteration)}{this.#race(race)}</div>} />}
     </div>;

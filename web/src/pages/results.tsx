@@ -45,7 +45,7 @@ export function Results({ params: { c }, query, campaign: { designs } }: PagePro
 
 function leaderboard(rows: Row[]) {
   return <Table name="b" caption="leaderboard" rows={rows} row_key={(one) => String(one.design)}
-    empty="No design has a winner yet: it has one when it has finished." columns={[
+    empty="No design has a winner yet: a design has one when it has finished." columns={[
       { key: "mission", show: (one) => words(String(one.mission)) }, "rank", "design", "method", "repetition",
       { key: "candidate", label: "winner" }, { key: "test_mean", label: "mean of tests", title: "higher is better" },
       { key: "test_runs", label: "tests" }, { key: "race_mean", label: "mean in the race" }]} />;
@@ -53,7 +53,7 @@ function leaderboard(rows: Row[]) {
 
 function real_runs(rows: Row[]) {
   return <Table name="f" caption="real runs" rows={rows}
-    empty={["No real run. Film one and score it: ", <code>swarmsmith track score VIDEO --arena ARENA.toml --into STORE</code>]} columns={[
+    empty={["No real runs. Film one and score it: ", <code>swarmsmith track score VIDEO --arena ARENA.toml --into STORE</code>]} columns={[
       { key: "id", label: "run" }, "name", { key: "mission", show: (one) => words(String(one.mission ?? "–")) }, "candidate",
       { key: "score", title: "higher is better" },
       { key: "verdict", show: ({ verdict, counts }) => counts ? verdict : <span class="warn">{verdict}, does not count</span> },

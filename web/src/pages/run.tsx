@@ -82,8 +82,8 @@ function Checks({ checks }: { checks: Check[] | null }) {
   const passed = checks?.filter((one) => one.outcome === "passed").length;
   const rows = [...checks ?? []].sort((a, b) => kOutcomes.indexOf(a.outcome) - kOutcomes.indexOf(b.outcome));
   return <Panel title="Checks of the verdict" wide>
-    {checks ? <p><small>{passed} of {checks.length} passed. Each says what it would have caught.</small></p>
-      : <Empty>Not recorded: an earlier version scored this run. <code>swarmsmith track rescore</code> does it again.</Empty>}
+    {checks ? <p><small>{passed} of {checks.length} passed. Each says which fault it can find.</small></p>
+      : <Empty>Not recorded: an earlier version scored this run. Use <code>swarmsmith track rescore</code>.</Empty>}
     {checks && <Table<Check> name="k" caption="checks" rows={rows} page_size={50} row_key={(one) => one.name + one.subject} columns={[
       { key: "outcome", show: ({ outcome }) => outcome === "passed" ? outcome : <span class="warn">{outcome}</span> },
       { key: "name", label: "check" }, { key: "subject", label: "of", value: (one) => one.subject || null },
@@ -308,7 +308,7 @@ class Player extends Component<PageProps, State> {
         <button class="main play" onClick={this.#toggle} aria-keyshortcuts="Space">{playing ? "Pause" : "Play"}</button>
         {button(() => this.#seek(0), "«", "to the start", "Home")}
         {button(() => this.#step(-1), "‹", "one cycle back", ",")}
-        {button(() => this.#step(1), "›", "one cycle on", ".")}
+        {button(() => this.#step(1), "›", "one cycle forward", ".")}
         <output class="time">{seconds(cycle)} <span class="faint">of {seconds(end)}</span></output>
         <span class="push" />
         <Choice label="Speed" value={String(this.#speed())} options={kSpeeds.map((speed) => [`${speed}×`, String(speed)])} />
@@ -348,7 +348,7 @@ class Player extends Component<PageProps, State> {
         ["score so far", <span data-what="score">{number(this.#score(run))}</span>],
         ["at the end", number(run.score)],
         run.verdict ? ["verdict", [run.verdict, not_checked(run.checks)]]
-          : ["simulated again", run.same_bits === null ? <small>nothing stored to compare with</small>
+          : ["simulated again", run.same_bits === null ? <small>nothing is stored to compare it with</small>
             : run.same_bits ? <span class="good" title={`state digest ${run.digest}`}>✓ same bits</span>
               : <span class="warn">differs: the store has {number(run.stored_score)}</span>]]),
       this.#robots(run, chosen),
@@ -401,7 +401,7 @@ class Player extends Component<PageProps, State> {
         <label>Run <input name="beside" value={this.state.wanted} autocomplete="off" size={14} onInput={(event) => this.setState({ wanted: typed(event) })} /></label>
         <button type="submit">Put beside</button>
       </form>
-      <p><small>An evaluation (e81200007), a candidate and a seed (c812-{seed}), or a real run (r7). All run on one clock.</small></p>
+      <p><small>An evaluation (e81200007), a candidate and a seed (c812-{seed}), or a real run (r7). All runs share one clock.</small></p>
     </Panel>;
   }
 

@@ -151,7 +151,7 @@ class Parallel extends Component<ParallelProps, ParallelState> {
     const has_brush = Object.keys(brushes).length > 0;
     const show = (label: string, these: string[]) => <button onClick={() => this.#show(these)}>{label}</button>;
     return <div class="grid">
-      <Panel wide title="Candidates, a line each" tools={[show("All", names), show("None", []), show("Only varying", varying(parameters)),
+      <Panel wide title="Candidates, one line each" tools={[show("All", names), show("None", []), show("Only varying", varying(parameters)),
         <button onClick={() => set_query({ p: null, b: null })}>Usual</button>,
         <Choice label="Colour by" name="colour" options={[["iteration", ""], ["mean score", "score"]]} />,
         <Choice label="Sample" value={query.sample ?? "1000"} options={kSamples.map((size) => [whole(size), String(size)])} />,
@@ -164,20 +164,20 @@ class Parallel extends Component<ParallelProps, ParallelState> {
               height={() => 400} draw={(pen) => { this.#width = pen.width; this.#height = pen.height; draw_parallel(pen, plot); }}
               attributes={{ onPointerDown: this.#down, onPointerMove: this.#move, onPointerUp: this.#up, onPointerLeave: () => this.setState({ met: null }) }} />
           </div></div>}
-        <p class="small" role="status">{met === null ? <span class="faint">Drag along an axis to choose a range; click it for all values. A line leads to its candidate.</span>
+        <p class="small" role="status">{met === null ? <span class="faint">Drag along an axis to choose a range; click it for all values. Click a line to open its candidate.</span>
           : `c${candidates[met]}: iteration ${data.iteration[met]}, mean ${number(data.mean[met])} of ${whole(data.runs[met])} runs${data.elite[met] ? ", an elite" : ""}`}</p>
         <details><summary>Parameters: {whole(axes.length)} of {whole(names.length)}</summary>
           <div class="boxes">{names.map((name) => <label><input type="checkbox" checked={shown.includes(name)}
             onChange={() => this.#show(names.filter((other) => shown.includes(other) !== (other === name)))} /> {name}</label>)}</div></details>
         {axes.length > 0 && <details><summary>Ranges</summary><div class="ranges">{axes.map((axis) => this.#range(axis, brushes[axis.name]))}</div></details>}
       </Panel>
-      {[["sampling", "Where the race looked, by iteration"], ["importance", "How much of the scores goes with each parameter"]].map(([kind, title]) =>
+      {[["sampling", "Where the race looked, by iteration"], ["importance", "How much of the scores each parameter explains"]].map(([kind, title]) =>
         <Panel title={title}>{total > kMuch && query.drawn !== "1"
-          ? <button onClick={() => set_query({ drawn: 1 })}>Draw it of all {whole(total)} candidates</button>
+          ? <button onClick={() => set_query({ drawn: 1 })}>Draw it for all {whole(total)} candidates</button>
           : <Figure kind={kind} options={{ design: d }} name={title} />}</Panel>)}
       <Panel wide title={has_brush ? "Candidates in the chosen ranges" : "Candidates"}>
         <Table name="k" caption="candidates" rows={[...candidates.keys()].filter((at) => chosen[at])} sort="-mean" page_size={15}
-          empty="No candidate lies in all chosen ranges."
+          empty="No candidate is in all chosen ranges."
           columns={[
             { key: "candidate", value: (at) => candidates[at] },
             { key: "iteration", value: (at) => data.iteration[at] },
