@@ -10,6 +10,7 @@
 #include "sim/files/mission_file.h"
 #include "sim/files/read_place.h"
 #include "tracking/rig/internal/config_errors.h"
+#include "tracking/rig/internal/rig_limits.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
@@ -19,7 +20,7 @@ namespace {
 constexpr Limits<double> kClock{-1e12, 1e12};
 constexpr Limits<double> kAhead{-86'400, 86'400};
 constexpr Limits<double> kLength{0.1, 86'400};
-constexpr Limits<std::int64_t> kTag{0, 65'535};
+
 
 const std::vector<std::string> kSyncs = {"hidden", "shown"};
 
@@ -80,7 +81,7 @@ RunStart read_start(TableReader& root) {
   auto sync = root.table("sync");
   if (!sync) return start;
   if (!sync->has("tag")) sync->complain("tag", sync->name() + " needs a `tag`, its number");
-  start.sync_tag = static_cast<int>(sync->integer("tag", kTag).value_or(0));
+  start.sync_tag = static_cast<int>(sync->integer("tag", kTagNumber).value_or(0));
   if (!sync->has("when")) sync->complain("when", sync->name() + " needs `when`: hidden or shown");
   const auto when = sync->choice("when", kSyncs);
   if (when) start.sync = *when == "hidden" ? RunStart::Sync::Hidden : RunStart::Sync::Shown;
