@@ -226,8 +226,9 @@ std::optional<Error> flaw_of(const SurveySheetOptions& options) {
     if (!(reach <= most)) most = reach;
   }
   if (most <= kMost_m) return std::nullopt;
-  return flaw(fmt::format("the arena reaches to {:.4g} m from its middle, limit {:g} m", most, kMost_m),
-              "--area");
+  return flaw(
+      fmt::format("the arena reaches to {:.4g} m from its middle, limit {:g} m", most, kMost_m),
+      "--area");
 }
 
 }  // namespace
@@ -261,11 +262,10 @@ Expected<std::string> survey_sheet(const SurveySheetOptions& options) {
       suggested_places(options.arena, options.ids.size(), options.edge_m);
   if (!have_room(places, options)) {
     const bool is_one = options.ids.size() == 1;
-    return bad_input(
-        fmt::format("{} of {} m {} not fit into the arena; use smaller tags{}",
-                    counted(options.ids.size(), "tag"), options.edge_m, is_one ? "does" : "do",
-                    is_one ? "" : ", or fewer"),
-        "--edge");
+    return bad_input(fmt::format("{} of {} m {} not fit into the arena; use smaller tags{}",
+                                 counted(options.ids.size(), "tag"), options.edge_m,
+                                 is_one ? "does" : "do", is_one ? "" : ", or fewer"),
+                     "--edge");
   }
   Svg svg = empty_page(options.paper, "Survey of the floor tags", "A form to fill in");
   svg.text({kPageMargin, kPageMargin + 4}, "Survey of the floor tags",

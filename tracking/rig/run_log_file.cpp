@@ -21,7 +21,6 @@ constexpr Limits<double> kClock{-1e12, 1e12};
 constexpr Limits<double> kAhead{-86'400, 86'400};
 constexpr Limits<double> kLength{0.1, 86'400};
 
-
 const std::vector<std::string> kSyncs = {"hidden", "shown"};
 
 /// Reads `mission`: the name of a built-in mission, a mission file, or a [[mission]] in the log
@@ -230,6 +229,20 @@ Section video_section(const RunVideo& video) {
 
 }  // namespace
 
+std::string run_name_of(const std::filesystem::path& file) {
+  const bool is_folder = file.filename().empty() && file.has_parent_path();
+  const std::string stem = (is_folder ? file.parent_path() : file).stem().string();
+  std::string name;
+  for (const char letter : stem) {
+    if (is_name(std::string_view(&letter, 1))) {
+      name += letter;
+    } else if (!name.ends_with('_')) {
+      name += '_';
+    }
+  }
+  return is_name(name) ? name : "run";
+}
+
 OrComplaints<RunLog> parse_run_log(std::string_view text, const std::filesystem::path& file) {
   const auto document = parse_document(text, file.string());
   if (!document) return tl::unexpected(config_errors({document.error()}));
@@ -237,7 +250,7 @@ OrComplaints<RunLog> parse_run_log(std::string_view text, const std::filesystem:
   TableReader root(*document, "", complaints);
   RunLog log;
   read_format(root);
-  log.name = root.text("name").value_or(file.stem().string());
+  log.name = root.text("name").value_or(run_name_of(file));
   if (root.has("name")) check_name(root, log.name, {});
   if (const auto date = root.date("recorded")) log.recorded = date_text(*date);
   log.mission = read_log_mission(root, file.parent_path());

@@ -131,24 +131,30 @@ OffsetCalibration offset() {
 }
 
 std::vector<KindOfFile> kinds_of_file() {
-  const FindCalibration none = [](CalibrationKind, const std::string&, const std::string&)
-      -> Expected<std::optional<std::string>> { return std::nullopt; };
+  const FindCalibration none = [](CalibrationKind, const std::string&,
+                                  const std::string&) -> Expected<std::optional<std::string>> {
+    return std::nullopt;
+  };
   const auto read_camera = [](const std::string& text) {
     return errors_of(parse_camera_calibration(text, "f"));
   };
   const std::set<std::string> of_lens = {"distortion", "hull", "cx", "cy"};
-  return {{"arena", kArena,
+  return {{"arena",
+           kArena,
            [none](const std::string& text) { return errors_of(parse_rig(text, "f", none)); },
            {"x", "y", "angle"}},
-          {"run log", kLog,
+          {"run log",
+           kLog,
            [](const std::string& text) { return errors_of(parse_run_log(text, "f")); },
            {"start", "ahead", "time", "u", "v", "heading", "x", "y"}},
           {"pinhole", calibration_text(camera(Lens::Pinhole)), read_camera, of_lens},
           {"fisheye", calibration_text(camera(Lens::Fisheye)), read_camera, of_lens},
-          {"place", calibration_text(place()),
+          {"place",
+           calibration_text(place()),
            [](const std::string& text) { return errors_of(parse_place_calibration(text, "f")); },
            {"rotation", "translation", "x", "y", "heading_rad", "corners"}},
-          {"offset", calibration_text(offset()),
+          {"offset",
+           calibration_text(offset()),
            [](const std::string& text) { return errors_of(parse_offset_calibration(text, "f")); },
            {"x", "y", "yaw_rad"}}};
 }
@@ -202,19 +208,20 @@ TEST(BadNumbersTest, EachNumberOfEachFileHasASensibleRangeAndIsNamedByItsLine) {
     const auto sound = kind.errors_of(kind.text);
     ASSERT_THAT(sound, IsEmpty()) << kind.name << ": " << to_string(sound.front());
     for (const Place& place : not_empty(numbers_of(kind.text))) {
-      for (const std::string bad : {"nan", "inf", "-inf", "-1", "-1e7", "1e7", "10000000", "1e300"}) {
+      for (const std::string bad :
+           {"nan", "inf", "-inf", "-1", "-1e7", "1e7", "10000000", "1e300"}) {
         if (bad == "-1" && kind.may_be_negative.contains(place.key)) continue;
         // Clocks may count from 1970, and TOML's numbers of a text have no exponent.
-        const bool is_clock = kind.name == "run log" && (place.key == "start" || place.key == "time");
+        const bool is_clock =
+            kind.name == "run log" && (place.key == "start" || place.key == "time");
         if (is_clock && bad.find('7') != std::string::npos) continue;
         if (is_clock && bad == "10000000") continue;
         std::string text = kind.text;
         text.replace(place.at, place.length, bad);
         const auto errors = kind.errors_of(text);
         const std::string where = "f:" + std::to_string(place.line) + ":";
-        const bool is_named = std::ranges::any_of(errors, [&](const Error& error) {
-          return to_string(error).starts_with(where);
-        });
+        const bool is_named = std::ranges::any_of(
+            errors, [&](const Error& error) { return to_string(error).starts_with(where); });
         EXPECT_TRUE(is_named) << kind.name << ", `" << place.key << "` in line " << place.line
                               << " is " << bad << ": "
                               << (errors.empty() ? "taken" : to_string(errors.front()));

@@ -314,12 +314,12 @@ TEST(RigFile, RefusesATagAboveWhereTheCameraReallyHangs) {
 
 TEST(RigFile, RefusesACameraThatHangsElsewhereThanItsHeightSays) {
   for (const char* height : {"[0.5, 2.6]", "[2.8, 20]"}) {
-    const auto rig = value_of(parse_rig(arena_with("[1.5, 4]", height), "arena.toml",
-                                        files(calibrations())));
+    const auto rig =
+        value_of(parse_rig(arena_with("[1.5, 4]", height), "arena.toml", files(calibrations())));
     EXPECT_THAT(lines_of(misfits(rig)),
                 ElementsAre(AllOf(HasSubstr("ceiling.place.toml: E_EXTRINSICS: "),
-                                  HasSubstr("camera \"ceiling\" hangs at 2.7 m"),
-                                  HasSubstr(height), HasSubstr("calibrate arena"))));
+                                  HasSubstr("camera \"ceiling\" hangs at 2.7 m"), HasSubstr(height),
+                                  HasSubstr("calibrate arena"))));
   }
 }
 
