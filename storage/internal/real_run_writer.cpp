@@ -138,18 +138,20 @@ void write_sightings(Connection& connection, RealRunId id, const RealRunRows& ro
   }
 }
 
-/// Writes the robot, pose and use of each sample.
+/// Writes the robot, pose and use of each sample, and its time, which depends on the camera's
+/// readout and exposure in the arena file.
 void write_poses(Connection& connection, RealRunId id, const RealRunRows& rows) {
   Statement robot(connection,
-                  "UPDATE real_sample SET robot = ?3, x = ?4, y = ?5, theta = ?6, use = ?7"
-                  " WHERE run = ?1 AND number = ?2");
+                  "UPDATE real_sample SET robot = ?3, x = ?4, y = ?5, theta = ?6, use = ?7,"
+                  " time = ?8 WHERE run = ?1 AND number = ?2");
   std::int64_t number = 0;
   for (const RealSampleRow& row : rows.samples) {
     ++number;
     if (row.robot < 0) {
-      robot.run(id.value, number, std::nullopt, std::nullopt, std::nullopt, std::nullopt, row.use);
+      robot.run(id.value, number, std::nullopt, std::nullopt, std::nullopt, std::nullopt, row.use,
+                row.time_s);
     } else {
-      robot.run(id.value, number, row.robot, row.x, row.y, row.theta, row.use);
+      robot.run(id.value, number, row.robot, row.x, row.y, row.theta, row.use, row.time_s);
     }
   }
 }

@@ -181,6 +181,7 @@ TEST_F(RealRunsTest, AreScoredAgainFromTheSameSightings) {
   again.cycles.pop_back();
   again.robots[0].outliers = 9;
   again.samples[0].x += 0.01;
+  again.samples[2].time_s += 0.004;
   again.samples[1].robot = -1;
   again.samples[1].x = again.samples[1].y = again.samples[1].theta = 0;
   again.issues.clear();

@@ -13,6 +13,8 @@
 #include "tracking/app/run_store.h"
 #include "tracking/app/same_film.h"
 #include "tracking/app/score_arguments.h"
+#include "tracking/detection/tag_detector.h"
+#include "tracking/observing/observe.h"
 #include "tracking/report/result_text.h"
 #include "tracking/scoring/real_run_rows.h"
 
@@ -83,6 +85,25 @@ void read_logs_again(const RunLog& log, const std::string& file,
   observations.issues.insert(observations.issues.end(), files.issues.begin(), files.issues.end());
 }
 
+/// When a tag was seen depends on what the arena file says of the camera's stamps, exposure and
+/// readout.
+void time_again(const Rig& before, const Rig& now, Observations& observations) {
+  for (Sighting& seen : observations.sightings) {
+    // A damaged store may name a camera that does not exist.
+    if (seen.camera < 0 || seen.camera >= std::ssize(observations.cameras)) continue;
+    const CameraRecord& record = observations.cameras[static_cast<std::size_t>(seen.camera)];
+    const CameraSetup* was = before.setup_of(record.camera);
+    const CameraSetup* is = now.setup_of(record.camera);
+    const auto frame = static_cast<std::size_t>(std::max<std::int64_t>(seen.frame, 0));
+    if (was == nullptr || is == nullptr || frame >= record.frame_times.size()) continue;
+    if (was->stamped_at == is->stamped_at && was->exposure_s == is->exposure_s &&
+        was->readout_s == is->readout_s)
+      continue;
+    seen.time_s =
+        exposed_at(*is, record.frame_times[frame], middle_of(seen.corners).v, record.size.height);
+  }
+}
+
 /// A run that was scored again.
 struct Again {
   AnalysedRun run;
@@ -97,6 +118,7 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRow
     auto arena = read_arena_file(arguments.arena);
     if (!arena) return tl::unexpected(std::move(arena.error()));
     arena_text = std::move(arena->text);
+    time_again(stored->rig, arena->rig, stored->observations);
     stored->rig = std::move(arena->rig);
   }
   CandidateId candidate = before.candidate;

@@ -505,6 +505,22 @@ class BadInput(unittest.TestCase):
             arena = LAB.copy_of_lab(f"{self.folder.name}/{number}", arena_toml=[change])
             self.assert_refused(self.score(LAB.film("good"), arena=arena), code, wanted, exit_code=exit_code)
 
+    def test_what_the_arena_says_of_a_shutter_is_corrected_by_rescoring(self):
+        def times():
+            with sqlite3.connect(f"file:{self.store}?mode=ro", uri=True) as base:
+                return [time for time, in base.execute("SELECT time_s FROM v_real_samples ORDER BY run, number")]
+        self.assertEqual(self.score(LAB.film("good")).returncode, 0)
+        before = times()
+        arena = LAB.copy_of_lab(f"{self.folder.name}/shutter", arena_toml=[('readout = "0 ms"', 'readout = "20 ms"')])
+        again = call(TRACK, "rescore", "r1", "--store", self.store, "--arena", arena)
+        self.assertIn(again.returncode, (0, 6), again.stderr)
+        later = [now - then for now, then in zip(times(), before, strict=True)]
+        self.assertTrue(all(0 < late < 0.02 for late in later))
+        self.assertGreater(max(later) - min(later), 0.002)
+        once_more = call(TRACK, "rescore", "r1", "--store", self.store)
+        self.assertEqual(once_more.returncode, again.returncode, once_more.stderr)
+        self.assertEqual([now - then for now, then in zip(times(), before, strict=True)], later)
+
     def test_robots_that_are_larger_in_the_mission(self):
         good = LAB.film("good")
         mission = self.folder / "large.toml"
