@@ -37,7 +37,6 @@ TEST(BodiesTest, AreTooLargeWhenTheyAreInsideEachOtherAllTheTime) {
     Outline body;
     double depth_mm;
   };
-  // The corners of the hexagon point along x, so that it is deepest there.
   const std::vector<Row> rows = {{BoxOutline{0.286, 0.286}, 86},
                                  {CircleOutline{0.14}, 80},
                                  {PolygonOutline{regular_polygon(6, 0.14)}, 80}};

@@ -249,7 +249,7 @@ TEST(PlaceTest, FloorTagsMustSurroundTheArenaOfTheRun) {
   seen.arena = regular_dodecagon(12);
   const TrackedRun large = seen.track().value();
   EXPECT_THAT(issue_of(large, IssueCode::ReferenceTags).text,
-              AllOf(HasSubstr("surround 3"), HasSubstr("at least 50 %"), HasSubstr("camera0"),
+              AllOf(HasSubstr("surround 2"), HasSubstr("at least 50 %"), HasSubstr("camera0"),
                     HasSubstr("calibrate arena")));
   spread = find_check(large, "floor tags around the arena", "camera0");
   ASSERT_NE(spread, nullptr);

@@ -98,7 +98,7 @@ struct Pair {
     if (depths.size() < kLeastCycles) return 0;
     std::vector<double> sorted = depths;
     const auto at = sorted.begin() + kLeastCycles - 1;
-    std::ranges::nth_element(sorted, at, std::greater());
+    std::nth_element(sorted.begin(), at, sorted.end(), std::greater());
     return *at;
   }
 };
@@ -140,7 +140,7 @@ class Bodies {
  private:
   template <class Depth>
   void look_at(std::size_t robot, Pair& pair, const Depth& depth) const {
-    for (int cycle = 0; cycle <= run_.trajectory.instants(); ++cycle) {
+    for (int cycle = 1; cycle <= run_.trajectory.instants(); ++cycle) {
       if (is_measured(robot, cycle)) pair.look(cycle, depth(cycle, body_of(robot, cycle)));
     }
   }
@@ -150,7 +150,7 @@ class Bodies {
   }
 
   Footprint body_of(std::size_t robot, int cycle) const {
-    return {outline_, cycle == 0 ? run_.starts[robot] : run_.trajectory.at(cycle - 1)[robot]};
+    return {outline_, run_.trajectory.at(cycle - 1)[robot]};
   }
 
   const std::vector<RobotTrack>& tracks_;
