@@ -88,16 +88,23 @@ OrRefusal<void> check_same_film(const AnalysedRun& run, const std::string& store
       if (!its || std::abs(its->from_s - mine->from_s) < 0.0005) continue;
       const std::string word = to_string(RealRunId{other});
       if (its->from_s < mine->to_s && mine->from_s < its->to_s) {
-        return refused(
-            ExitCode::Store,
-            {ErrorKind::Conflict,
-             fmt::format(
-                 "{} is of this film {}, and this run would be of it {}: it would count "
-                 "twice. If the start of {} is wrong, correct it: `swarmsmith track rescore "
-                 "{} --start \"{:.3f} s\" --store {}`",
-                 word, span_text(*its), span_text(*mine), word, word, run.starts_s.front(),
-                 command_word(store)),
-             camera.file});
+        const std::string at = " --store " + command_word(store);
+        std::string advice = fmt::format(
+            "If the start of {} is wrong, correct it: `swarmsmith track rescore {} "
+            "--start \"{:.3f} s\"{}`",
+            word, word, run.starts_s.front(), at);
+        if (own) {
+          advice = fmt::format(
+              "Leave one of them out of the statistics: `swarmsmith track override "
+              "{} --verdict invalid --who NAME --reason TEXT{}`",
+              to_string(*own), at);
+        }
+        return refused(ExitCode::Store,
+                       {ErrorKind::Conflict,
+                        fmt::format("{} is of this film {}, and this run would be of it {}: it "
+                                    "would count twice. {}",
+                                    word, span_text(*its), span_text(*mine), advice),
+                        camera.file});
       }
       print_note(output, fmt::format("note: {} is of the same film, {}; this run is of it {}", word,
                                      span_text(*its), span_text(*mine)));
