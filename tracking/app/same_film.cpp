@@ -79,9 +79,10 @@ OrRefusal<void> check_same_film(const AnalysedRun& run, const std::string& store
       const auto rows = (*reader)->real_run(RealRunId{other});
       if (!rows) continue;
       const auto stored = stored_run(*rows);
-      const auto starts_s = stored ? starts_of(stored->observations, stored->log)
-                                   : Expected<std::vector<double>>(std::vector<double>());
-      if (!mine || !starts_s) continue;
+      // A run that cannot be read again cannot be compared.
+      if (!stored || !mine) continue;
+      const auto starts_s = starts_of(stored->observations, stored->log);
+      if (!starts_s) continue;
       const auto its =
           part_of(camera.sha256, stored->observations, *starts_s, duration_of(stored->log));
       // The same start is the same run, which the store knows.
