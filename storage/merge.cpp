@@ -112,6 +112,27 @@ Expected<void> check_new_runs(const Connection& connection, const fs::path& stor
       store.string());
 }
 
+/// Warns of a film that is in several stores with other starts: it may show several runs, or one
+/// run that was scored twice.
+void warn_of_same_films(const Connection& connection, const fs::path& store, std::int64_t shift,
+                        std::vector<std::string>& warnings) {
+  Statement same(connection,
+                 "SELECT o.run, m.run, min(m.file) FROM other.real_video AS o"
+                 " JOIN main.real_video AS m ON m.sha256 = o.sha256 AND m.run <= ?"
+                 " GROUP BY o.run, m.run ORDER BY o.run, m.run");
+  same.bind(shift);
+  while (same.step()) {
+    const RealRunId own{same.integer(0) + shift};
+    const RealRunId earlier{same.integer(1)};
+    warnings.push_back(fmt::format(
+        "{}: its real run r{} (now {}) is of the film of {}, {}, with another start; if they are "
+        "one run, `swarmsmith track override {} --verdict invalid` leaves one out of the "
+        "statistics",
+        store.string(), same.integer(0), to_string(own), to_string(earlier), same.text(2),
+        to_string(own)));
+  }
+}
+
 /// Copies the profiles. Warns when an earlier store has another profile of the same name.
 void take_profiles(Connection& connection, const Connection& other, const fs::path& store,
                    std::vector<std::string>& warnings) {
@@ -136,6 +157,7 @@ Expected<void> take(Connection& connection, const fs::path& store, const fs::pat
   configure_reader(other);
   Statement(connection, "ATTACH ? AS other").run(copy.string());
   if (auto fresh = check_new_runs(connection, store); !fresh) return fresh;
+  warn_of_same_films(connection, store, move.real_runs, warnings);
   {
     sqlite::Transaction transaction(connection);
     connection.execute("PRAGMA defer_foreign_keys = ON");

@@ -153,11 +153,17 @@ Expected<void> SqliteAtRest::rescore_real_run(RealRunId id, const RealRunRows& r
   return in_one_go([&]() -> Expected<void> {
     const auto stored = stored_run(id);
     if (!stored) return Unexpected(stored.error());
-    if (stored->key != rows.key || !same_sightings(*stored, rows)) {
+    if (!same_sightings(*stored, rows)) {
       return bad_input(fmt::format("the run to score again has other sightings than {}: other "
                                    "videos make a run of their own",
                                    to_string(id)),
                        path_.string());
+    }
+    if (const auto known = real_run_of_key(writer_.connection, rows.key); known && *known != id) {
+      return unexpected(
+          ErrorKind::Conflict,
+          fmt::format("{} is that run, of the same videos with the same start", to_string(*known)),
+          path_.string());
     }
     if (auto known = check_candidate(rows.candidate); !known) return known;
     rewrite_real_run(writer_.connection, id, rows);

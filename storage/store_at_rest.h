@@ -60,10 +60,11 @@ class StoreAtRest {
   /// campaign without designs, since it has no races. Throws std::invalid_argument when a number is
   /// NaN or infinite, or when a video or robot names a calibration that is not among the rows.
   virtual Expected<RealRunWritten> add_real_run(const RealRunRows& rows) = 0;
-  /// Replaces the inputs of a run and everything that follows from its sightings and inputs, and
-  /// adds the score to its history. Sightings, frame times and floor tags stay unchanged: BadInput
-  /// when `rows` is another run (by its key) or has other sightings. NotFound when the store has no
-  /// such run. A person's verdict stays only if inputs, score, verdict and reasons are the same.
+  /// Replaces the inputs of a run, its start among them, and everything that follows from its
+  /// sightings and inputs, and adds the score to its history. Corners of tags, frame times and
+  /// floor tags stay unchanged: BadInput when `rows` has other ones. Conflict when another run has
+  /// the key. NotFound when the store has no such run. A person's verdict stays only if inputs,
+  /// score, verdict and reasons are the same.
   virtual Expected<void> rescore_real_run(RealRunId id, const RealRunRows& rows) = 0;
   /// Adds a user's verdict on the last scoring. BadInput for an unknown verdict, or without a name
   /// or a reason; NotFound.

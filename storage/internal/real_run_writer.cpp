@@ -138,18 +138,20 @@ void write_sightings(Connection& connection, RealRunId id, const RealRunRows& ro
   }
 }
 
-/// Writes the robot, pose and use of each sample.
+/// Writes the robot, pose and use of each sample, and its time, which depends on the camera's
+/// readout and exposure in the arena file.
 void write_poses(Connection& connection, RealRunId id, const RealRunRows& rows) {
   Statement robot(connection,
-                  "UPDATE real_sample SET robot = ?3, x = ?4, y = ?5, theta = ?6, use = ?7"
-                  " WHERE run = ?1 AND number = ?2");
+                  "UPDATE real_sample SET robot = ?3, x = ?4, y = ?5, theta = ?6, use = ?7,"
+                  " time = ?8 WHERE run = ?1 AND number = ?2");
   std::int64_t number = 0;
   for (const RealSampleRow& row : rows.samples) {
     ++number;
     if (row.robot < 0) {
-      robot.run(id.value, number, std::nullopt, std::nullopt, std::nullopt, std::nullopt, row.use);
+      robot.run(id.value, number, std::nullopt, std::nullopt, std::nullopt, std::nullopt, row.use,
+                row.time_s);
     } else {
-      robot.run(id.value, number, row.robot, row.x, row.y, row.theta, row.use);
+      robot.run(id.value, number, row.robot, row.x, row.y, row.theta, row.use, row.time_s);
     }
   }
 }
@@ -256,10 +258,10 @@ RealRunId write_real_run(Connection& connection, const RealRunRows& rows) {
 void rewrite_real_run(Connection& connection, RealRunId id, const RealRunRows& rows) {
   Statement(connection,
             "UPDATE real_run SET candidate = ?2, source = ?3, mission = ?4, name = ?5,"
-            " recorded = ?6, duration = ?7, mission_file = ?8, arena_file = ?9, log = ?10"
-            " WHERE id = ?1")
+            " recorded = ?6, duration = ?7, mission_file = ?8, arena_file = ?9, log = ?10,"
+            " key = ?11 WHERE id = ?1")
       .run(id.value, candidate_of(rows), rows.source, rows.mission, rows.name, rows.recorded,
-           rows.duration_s, rows.mission_file, rows.arena_file, rows.log);
+           rows.duration_s, rows.mission_file, rows.arena_file, rows.log, rows.key);
   Statement video(connection,
                   "UPDATE real_video SET camera = ?3, camera_calibration = ?4,"
                   " place_calibration = ?5 WHERE run = ?1 AND number = ?2");
@@ -299,7 +301,7 @@ void carry_overrides(Connection& connection, RealRunId id) {
 }
 
 bool same_scoring(const RealRunRows& a, const RealRunRows& b) {
-  return differing_inputs(a, b).empty() && a.score.score == b.score.score &&
+  return a.key == b.key && differing_inputs(a, b).empty() && a.score.score == b.score.score &&
          a.score.verdict == b.score.verdict && a.score.biased == b.score.biased &&
          a.score.reasons == b.score.reasons;
 }

@@ -272,6 +272,21 @@ TEST_F(MergeTest, RealRunsAndTheirCandidatesMoveAndNoneComesTwice) {
   EXPECT_FALSE(fs::exists(folder / "all.db"));
 }
 
+/// It may show several runs, so that only a person can tell.
+TEST_F(MergeTest, WarnsOfAFilmWithSeveralStarts) {
+  EXPECT_THAT(value_of(merge_stores({a, b}, out, kUnwatched)).warnings, IsEmpty());
+  const fs::path c = folder / "c.db";
+  write_store(c, campaign_of_all_kinds(3, 2));
+  RealRunRows twin = *open_reader(b)->real_run({2});
+  twin.key = "another start";
+  const auto written = (*StoreAtRest::open(c, StoreAtRest::IfMissing::Refuse))->add_real_run(twin);
+  ASSERT_TRUE(written) << to_string(written.error());
+  const auto merged = value_of(merge_stores({b, c}, folder / "all.db", kUnwatched));
+  EXPECT_THAT(merged.warnings,
+              ElementsAre(AllOf(HasSubstr("c.db: its real run r3 (now r6) is of the film of r2, "),
+                                HasSubstr("with another start"), HasSubstr("track override r6"))));
+}
+
 TEST_F(MergeTest, MergedStoresCanBeMergedAndTheOrderDoesNotChangeTheDigest) {
   const fs::path c = folder / "c.db";
   const fs::path all = folder / "all.db";

@@ -181,6 +181,7 @@ TEST_F(RealRunsTest, AreScoredAgainFromTheSameSightings) {
   again.cycles.pop_back();
   again.robots[0].outliers = 9;
   again.samples[0].x += 0.01;
+  again.samples[2].time_s += 0.004;
   again.samples[1].robot = -1;
   again.samples[1].x = again.samples[1].y = again.samples[1].theta = 0;
   again.issues.clear();
@@ -209,6 +210,29 @@ TEST_F(RealRunsTest, AreScoredAgainFromTheSameSightings) {
   again.samples[2].corners[3] += 1;
   EXPECT_EQ(why_not(opened()->rescore_real_run(id, again)).kind, ErrorKind::BadInput);
   EXPECT_EQ(opened()->rescore_real_run({7}, rows).error().kind, ErrorKind::NotFound);
+}
+
+/// The key follows from the videos and the start.
+TEST_F(RealRunsTest, AreScoredAgainWithAnotherStartAndKeepTheirHistory) {
+  const RealRunRows rows = synthetic_real_run(1, kWinner);
+  const RealRunId id = added(rows);
+  ASSERT_TRUE(opened()->add_override({id, "INVALID", "A. Person", "pushed"}));
+  RealRunRows again = rows;
+  again.key = "of the right start";
+  const auto done = opened()->rescore_real_run(id, again);
+  ASSERT_TRUE(done) << to_string(done.error());
+  EXPECT_EQ(stored(id), in_order(again));
+  EXPECT_THAT(open_reader(path)->integrity(), IsEmpty());
+  EXPECT_THAT(all("SELECT count(*) FROM v_real_scores"), ElementsAre(Cells{"2"}));
+  // The person saw another start.
+  EXPECT_THAT(all("SELECT verdict FROM v_real_runs"), ElementsAre(Cells{rows.score.verdict}));
+  EXPECT_FALSE(opened()->add_real_run(again)->is_new);
+  const RealRunRows other = synthetic_real_run(2, kWinner);
+  added(other);
+  again.key = other.key;
+  const Error refused = why_not(opened()->rescore_real_run(id, again));
+  EXPECT_EQ(refused.kind, ErrorKind::Conflict);
+  EXPECT_THAT(refused.message, HasSubstr("r2 is that run"));
 }
 
 TEST_F(RealRunsTest, CountAmongTheScoresOfTheirDesignWhenTheyCanBeTrusted) {

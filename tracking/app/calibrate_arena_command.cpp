@@ -191,7 +191,11 @@ ExitCode run(const ArenaArguments& arguments, Output& output) {
   const auto camera = camera_of(*rig, arguments.camera);
   if (!camera) return fail_all(output, {camera.error()});
   Arena arena = dodecagon_of_the_thesis();
-  if (!arguments.mission.empty()) {
+  if (arguments.mission.empty()) {
+    print_note(output, fmt::format("note: no --mission given: the floor tags are compared with the "
+                                   "arena of the thesis, a dodecagon of {:.2f} m2",
+                                   area_of(arena)));
+  } else {
     auto mission = find_mission(arguments.mission, {});
     if (!mission) return fail_all(output, mission.error());
     arena = mission->mission.arena;

@@ -264,7 +264,6 @@ ExitCode overlay(const OverlayArguments& words, Output& output) {
 CommandRun declare_overlay(Options& options) {
   auto words = std::make_shared<OverlayArguments>();
   ScoreArguments& run = words->run;
-  constexpr Options::Range kTags{0, 65'535};
   options.words("RUN|VIDEO RUN|FILE", run.videos, "A stored run, r7, or its videos, one per camera",
                 Options::Need::Required);
   options.text("-o,--output FILE", words->out,
@@ -279,12 +278,7 @@ CommandRun declare_overlay(Options& options) {
   options.text("--arena FILE", run.arena, "Arena file of a run that is not stored");
   options.text("--run FILE", run.run, "Run log of a run that is not stored");
   options.text("--mission MISSION|FILE", run.mission, "Mission, of a run that is not stored");
-  options.text("--start TIME", run.start,
-               "Start of the run on the clock of the first video: 12.4 s");
-  options.integer("--sync-hidden", run.sync_hidden, kTags,
-                  "The run starts when this tag is covered");
-  options.integer("--sync-shown", run.sync_shown, kTags,
-                  "The run starts when this tag is uncovered");
+  run.begin.declare(options);
   options.text("--patches FILE", run.patches, "Colour patches: a CSV with seed,x,y,color");
   options.texts("--times FILE", run.times,
                 "CSV with a time for each frame, one per video: frame,time_s");

@@ -8,9 +8,13 @@
 #include "tracking/app/robot_files.h"
 #include "tracking/app/run_analysis.h"
 #include "tracking/app/run_checks.h"
+#include "tracking/app/run_options.h"
 #include "tracking/app/run_plan.h"
 #include "tracking/app/run_store.h"
+#include "tracking/app/same_film.h"
 #include "tracking/app/score_arguments.h"
+#include "tracking/detection/tag_detector.h"
+#include "tracking/observing/observe.h"
 #include "tracking/report/result_text.h"
 #include "tracking/scoring/real_run_rows.h"
 
@@ -22,6 +26,7 @@ struct RescoreArguments {
   std::string store;
   std::string arena;
   std::string log;
+  StartArguments begin;
   bool all_checks = false;
 };
 
@@ -34,6 +39,7 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   if (log.videos.empty()) log.videos = before.videos;
   if (log.mission.name.empty()) log.mission = before.mission;
   if (log.notes.empty()) log.notes = before.notes;
+  if (!log.start.time_s && log.start.sync == RunStart::Sync::None) log.start = before.start;
   if (log.videos.size() != before.videos.size()) {
     return refused(error_of(IssueCode::Config,
                             "the run has " + counted(before.videos.size(), "video") + ", the log " +
@@ -79,6 +85,25 @@ void read_logs_again(const RunLog& log, const std::string& file,
   observations.issues.insert(observations.issues.end(), files.issues.begin(), files.issues.end());
 }
 
+/// When a tag was seen depends on what the arena file says of the camera's stamps, exposure and
+/// readout.
+void time_again(const Rig& before, const Rig& now, Observations& observations) {
+  for (Sighting& seen : observations.sightings) {
+    // A damaged store may name a camera that does not exist.
+    if (seen.camera < 0 || seen.camera >= std::ssize(observations.cameras)) continue;
+    const CameraRecord& record = observations.cameras[static_cast<std::size_t>(seen.camera)];
+    const CameraSetup* was = before.setup_of(record.camera);
+    const CameraSetup* is = now.setup_of(record.camera);
+    const auto frame = static_cast<std::size_t>(std::max<std::int64_t>(seen.frame, 0));
+    if (was == nullptr || is == nullptr || frame >= record.frame_times.size()) continue;
+    if (was->stamped_at == is->stamped_at && was->exposure_s == is->exposure_s &&
+        was->readout_s == is->readout_s)
+      continue;
+    seen.time_s =
+        exposed_at(*is, record.frame_times[frame], middle_of(seen.corners).v, record.size.height);
+  }
+}
+
 /// A run that was scored again.
 struct Again {
   AnalysedRun run;
@@ -93,6 +118,7 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRow
     auto arena = read_arena_file(arguments.arena);
     if (!arena) return tl::unexpected(std::move(arena.error()));
     arena_text = std::move(arena->text);
+    time_again(stored->rig, arena->rig, stored->observations);
     stored->rig = std::move(arena->rig);
   }
   CandidateId candidate = before.candidate;
@@ -114,7 +140,9 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRow
     }
     read_logs_again(stored->log, arguments.log, machine, stored->observations);
   }
-  std::vector<Error> errors = settle_names(stored->log, stored->rig);
+  std::vector<Error> errors = take_start(arguments.begin, stored->log);
+  for (Error& error : settle_names(stored->log, stored->rig))
+    errors.push_back(std::move(error));
   if (!errors.empty()) return refused(std::move(errors));
   errors =
       faults_of_rig(rig_of_run(stored->rig, stored->log), stored->log.mission, before.score.biased);
@@ -165,6 +193,11 @@ ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word,
   if (!again) return fail(output, again.error());
   auto store = open_store(kept->store, StoreAtRest::IfMissing::Refuse);
   if (!store) return fail(output, store.error());
+  // With the start that it had, it is no more doubtful than before.
+  if (again->rows.key != kept->rows.key) {
+    if (const auto other = check_same_film(again->run, kept->store, kept->id, output); !other)
+      return fail(output, other.error());
+  }
   const auto written = (*store)->rescore_real_run(kept->id, again->rows);
   store->reset();
   if (!written) return fail(output, ExitCode::Store, written.error());
@@ -179,6 +212,10 @@ ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word,
 /// Scores all runs, even if one fails; the first failure decides the exit code.
 ExitCode run(const RescoreArguments& arguments, Output& output) {
   if (const auto store = named_store(arguments.store); !store) return fail(output, store.error());
+  if (arguments.begin.are_given() && arguments.runs.size() > 1) {
+    return fail(output, ExitCode::Usage,
+                wrong_option("a start is that of one run; name one RUN", "--start"));
+  }
   ExitCode code = ExitCode::Done;
   for (const std::string& word : arguments.runs) {
     const ExitCode one = rescore_one(arguments, word, output);
@@ -196,6 +233,7 @@ CommandRun declare_track_rescore(Options& options) {
   options.text("--arena FILE", arguments->arena,
                "Arena file with the calibrations to use now (default: those of the store)");
   options.text("--run FILE", arguments->log, "Run log to use now (default: that of the store)");
+  arguments->begin.declare(options);
   options.flag("--checks", arguments->all_checks,
                "List all checks of the run: number, limit, what each catches");
   return [arguments](Output& output) { return run(*arguments, output); };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tracking/app/commands.h"
 #include "tracking/app/run_checks.h"
@@ -85,16 +86,23 @@ void believe_clock(TrackedRun& run) {
 
 }  // namespace
 
+Expected<std::vector<double>> starts_of(const Observations& observations, const RunLog& log) {
+  const auto start = start_of(observations, log);
+  if (!start) return Unexpected(start.error());
+  std::vector<double> starts_s;
+  for (const RunVideo& video : log.videos)
+    starts_s.push_back(*start + video.clock_ahead_s);
+  return starts_s;
+}
+
 OrRefusal<AnalysedRun> analyse(Observations observations, const Rig& whole_rig, RunLog log,
                                bool takes_tags_for_centres) {
-  const auto start = start_of(observations, log);
-  if (!start) return refused(start.error());
-  AnalysedRun run{.rig = rig_of_run(whole_rig, log)};
+  auto starts_s = starts_of(observations, log);
+  if (!starts_s) return refused(starts_s.error());
+  AnalysedRun run{.rig = rig_of_run(whole_rig, log), .starts_s = std::move(*starts_s)};
   TrackOptions options;
-  for (const RunVideo& video : log.videos) {
-    run.starts_s.push_back(*start + video.clock_ahead_s);
+  for (const RunVideo& video : log.videos)
     options.span.lengths_s.push_back(video.length_s);
-  }
   options.span.starts_s = run.starts_s;
   options.span.cycles = log.mission.cycles;
   options.other_tags = other_tags(whole_rig, log);

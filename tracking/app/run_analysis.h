@@ -27,6 +27,9 @@ struct AnalysedRun {
   RealRunRows rows(const std::string& arena_text, CandidateId candidate) const;
 };
 
+/// The start of a run on each camera's clock, from the log or from the sync tag.
+Expected<std::vector<double>> starts_of(const Observations& observations, const RunLog& log);
+
 /// Pure: the same sightings, rig and log give exactly the same results, from a video or from a
 /// store. `whole_rig` also contains cameras and robots that did not take part.
 OrRefusal<AnalysedRun> analyse(Observations observations, const Rig& whole_rig, RunLog log,

@@ -9,34 +9,8 @@
 namespace swarmsmith {
 namespace {
 
-/// Reads `--start 12.4`, `--start "12.4 s"`, `--sync-hidden 99`.
-void take_start(const ScoreArguments& arguments, RunLog& log, std::vector<Error>& errors) {
-  const int given = (arguments.start.empty() ? 0 : 1) + (arguments.sync_hidden ? 1 : 0) +
-                    (arguments.sync_shown ? 1 : 0);
-  if (given > 1) {
-    errors.push_back(
-        wrong_option("use only one of --start, --sync-hidden and --sync-shown", "--start"));
-  }
-  if (given > 0) log.start = {};
-  if (!arguments.start.empty()) {
-    log.start.time_s = parse_seconds(arguments.start);
-    if (!log.start.time_s) log.start.time_s = parse_seconds(arguments.start + " s");
-    if (!log.start.time_s || !(*log.start.time_s > -1e12 && *log.start.time_s < 1e12)) {
-      errors.push_back(
-          wrong_option("`--start` must be a time, such as 12.4 or \"12.4 s\"; this is "
-                       "\"" +
-                           arguments.start + "\"",
-                       "--start"));
-    }
-  }
-  if (arguments.sync_hidden) {
-    log.start.sync_tag = static_cast<int>(*arguments.sync_hidden);
-    log.start.sync = RunStart::Sync::Hidden;
-  }
-  if (arguments.sync_shown) {
-    log.start.sync_tag = static_cast<int>(*arguments.sync_shown);
-    log.start.sync = RunStart::Sync::Shown;
-  }
+/// Without the options, the log says when the run begins.
+void check_start(const RunLog& log, std::vector<Error>& errors) {
   if (!log.start.time_s && log.start.sync == RunStart::Sync::None && errors.empty()) {
     errors.push_back(wrong_option(
         "the start of the run is unknown; give it in the run log (`start` or `sync`) or by "
@@ -103,9 +77,40 @@ Error wrong_option(const std::string& text, const std::string& option) {
   return error_of(IssueCode::Config, text, option);
 }
 
-std::vector<Error> take_options(const ScoreArguments& arguments, RunLog& log) {
+std::vector<Error> take_start(const StartArguments& arguments, RunLog& log) {
   std::vector<Error> errors;
-  take_start(arguments, log, errors);
+  const int given = (arguments.start.empty() ? 0 : 1) + (arguments.sync_hidden ? 1 : 0) +
+                    (arguments.sync_shown ? 1 : 0);
+  if (given > 1) {
+    errors.push_back(
+        wrong_option("use only one of --start, --sync-hidden and --sync-shown", "--start"));
+  }
+  if (given > 0) log.start = {};
+  if (!arguments.start.empty()) {
+    log.start.time_s = parse_seconds(arguments.start);
+    if (!log.start.time_s) log.start.time_s = parse_seconds(arguments.start + " s");
+    if (!log.start.time_s || !(*log.start.time_s > -1e12 && *log.start.time_s < 1e12)) {
+      errors.push_back(
+          wrong_option("`--start` must be a time, such as 12.4 or \"12.4 s\"; this is "
+                       "\"" +
+                           arguments.start + "\"",
+                       "--start"));
+    }
+  }
+  if (arguments.sync_hidden) {
+    log.start.sync_tag = static_cast<int>(*arguments.sync_hidden);
+    log.start.sync = RunStart::Sync::Hidden;
+  }
+  if (arguments.sync_shown) {
+    log.start.sync_tag = static_cast<int>(*arguments.sync_shown);
+    log.start.sync = RunStart::Sync::Shown;
+  }
+  return errors;
+}
+
+std::vector<Error> take_options(const ScoreArguments& arguments, RunLog& log) {
+  std::vector<Error> errors = take_start(arguments.begin, log);
+  check_start(log, errors);
   take_control(arguments, log, errors);
   take_patches(arguments, log, errors);
   if (!arguments.mission.empty()) {

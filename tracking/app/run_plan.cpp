@@ -1,8 +1,10 @@
 #include "tracking/app/run_plan.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "base/plain_text.h"
+#include "base/shown_text.h"
 #include "base/text/whole_file.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/app/run_options.h"
@@ -20,10 +22,19 @@ namespace fs = std::filesystem;
 /// A run log for videos without one.
 RunLog log_of_words(const std::vector<std::string>& videos) {
   RunLog log;
-  if (!videos.empty()) log.name = fs::path(file_of_source(videos.front())).stem().string();
+  if (!videos.empty()) log.name = run_name_of(file_of_source(videos.front()));
   for (const std::string& video : videos)
     log.videos.push_back({.camera = {}, .file = video, .times = {}});
   return log;
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
 }
 
 /// The files of the videos and sidecars. Names on the command line are relative to the current
@@ -66,6 +77,14 @@ OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
     } else {
       files.times.push_back(sidecar_beside(files.videos.back().string()));
       video.times = files.times.back().filename().string();
+    }
+  }
+  for (const RunVideo& video : log.videos) {
+    for (const std::string& name : {video.file, video.times}) {
+      if (is_utf8(name)) continue;
+      return refused(error_of(
+          IssueCode::Config,
+          "the name of this file is not UTF-8, so that a store cannot keep it; rename it", name));
     }
   }
   return files;

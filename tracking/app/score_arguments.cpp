@@ -9,8 +9,14 @@ std::string store_word(const std::string& option) {
   return option.empty() ? store_of_environment() : option;
 }
 
-void ScoreArguments::declare(Options& options) {
+void StartArguments::declare(Options& options) {
   constexpr Options::Range kTags{0, 65'535};
+  options.text("--start TIME", start, "Start of the run on the clock of the first video: 12.4 s");
+  options.integer("--sync-hidden", sync_hidden, kTags, "The run starts when this tag is covered");
+  options.integer("--sync-shown", sync_shown, kTags, "The run starts when this tag is uncovered");
+}
+
+void ScoreArguments::declare(Options& options) {
   options.words(
       "VIDEO FILE", videos,
       "Videos, folders of images or bags, one per camera (default: those of the run log)");
@@ -20,9 +26,7 @@ void ScoreArguments::declare(Options& options) {
                joined(mission_names()) + " or a file (default: the design's)");
   options.text("--design DESIGN", design, "Design of the store whose winner ran: d3");
   options.text("--candidate CANDIDATE", candidate, "Candidate of the store that ran: c812");
-  options.text("--start TIME", start, "Start of the run on the clock of the first video: 12.4 s");
-  options.integer("--sync-hidden", sync_hidden, kTags, "The run starts when this tag is covered");
-  options.integer("--sync-shown", sync_shown, kTags, "The run starts when this tag is uncovered");
+  begin.declare(options);
   options.text("--patches FILE", patches,
                "Colour patches of the run: a CSV with seed,x,y,color of one seed; or `measured`, "
                "from the picture");

@@ -12,6 +12,16 @@ namespace swarmsmith {
 /// The store: `--store`, otherwise SWARMSMITH_STORE, otherwise none (empty).
 std::string store_word(const std::string& option);
 
+/// The options that say when a run begins.
+struct StartArguments {
+  std::string start;
+  std::optional<std::int64_t> sync_hidden;
+  std::optional<std::int64_t> sync_shown;
+
+  void declare(Options& options);
+  bool are_given() const { return !start.empty() || sync_hidden || sync_shown; }
+};
+
 /// The command line of `track score`.
 struct ScoreArguments {
   std::vector<std::string> videos;
@@ -21,9 +31,7 @@ struct ScoreArguments {
   std::string mission;
   std::string design;
   std::string candidate;
-  std::string start;
-  std::optional<std::int64_t> sync_hidden;
-  std::optional<std::int64_t> sync_shown;
+  StartArguments begin;
   std::string patches;
   std::string name;
   std::string recorded;

@@ -8,6 +8,7 @@
 #include "tracking/app/commands.h"
 #include "tracking/app/run_plan.h"
 #include "tracking/app/run_store.h"
+#include "tracking/app/same_film.h"
 #include "tracking/app/watch_run.h"
 #include "tracking/app/written_files.h"
 #include "tracking/report/quality.h"
@@ -17,10 +18,14 @@ namespace swarmsmith {
 namespace {
 
 /// Opens the store again only now, because a campaign may have run while the video was read.
-OrRefusal<RealRunWritten> keep(const RunPlan& plan, const RealRunRows& rows) {
+OrRefusal<RealRunWritten> keep(const RunPlan& plan, const AnalysedRun& run, Output& output) {
   auto store = open_store(plan.store, plan.if_missing);
   if (!store) return tl::unexpected(std::move(store.error()));
-  auto written = (*store)->add_real_run(rows);
+  if (!(*store)->is_new()) {
+    if (auto other = check_same_film(run, plan.store, std::nullopt, output); !other)
+      return tl::unexpected(std::move(other.error()));
+  }
+  auto written = (*store)->add_real_run(run.rows(plan.arena_text, plan.candidate));
   if (written) return *written;
   return refused(written.error().kind == ErrorKind::NotFound ? ExitCode::NoSuchId : ExitCode::Store,
                  written.error());
@@ -81,7 +86,7 @@ ExitCode score(const ScoreArguments& arguments, Output& output) {
   if (!run) return fail(output, run.error());
   std::optional<RealRunWritten> written;
   if (!plan->store.empty()) {
-    const auto kept = keep(*plan, run->rows(plan->arena_text, plan->candidate));
+    const auto kept = keep(*plan, *run, output);
     if (!kept) return fail(output, kept.error());
     written = *kept;
   }

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <opencv2/imgproc.hpp>
 
 #include "base/median.h"
-#include "sim/mission/polygon.h"
+#include "tracking/rig/lens_reach.h"
 
 namespace swarmsmith {
 namespace {
@@ -50,41 +49,12 @@ bool are_in_line(const std::vector<SeenTag>& seen) {
   return !(axes.eigenvalues()(0) > kThin * kThin * axes.eigenvalues()(1));
 }
 
-/// The share of the visible part of the arena that lies within the hull of the tags' corners, 0 to
-/// 1; counted on a grid of 2 cm.
+/// The share of the arena within the seen floor tags.
 double coverage_of(const PlaceQuestion& question, const View& view) {
-  std::vector<cv::Point2f> corners;
-  for (const SeenTag& tag : question.seen) {
-    for (const Point& corner : corners_of(tag.tag))
-      corners.emplace_back(static_cast<float>(corner.x), static_cast<float>(corner.y));
-  }
-  std::vector<cv::Point2f> hull;
-  cv::convexHull(corners, hull);
-  std::vector<cv::Point2f> arena;
-  for (const Point& corner : question.arena)
-    arena.emplace_back(static_cast<float>(corner.x), static_cast<float>(corner.y));
-  const cv::Rect2f box = cv::boundingRect(arena);
-  constexpr int kCells_1_m = 50;
-  int seen = 0;
-  int covered = 0;
-  const auto cell = [](float at) { return static_cast<int>(std::floor(at * kCells_1_m)); };
-  for (int row = cell(box.y); row <= cell(box.br().y); ++row) {
-    for (int column = cell(box.x); column <= cell(box.br().x); ++column) {
-      const Point point{(column + 0.5) / kCells_1_m, (row + 0.5) / kCells_1_m};
-      if (!is_within(question.arena, point)) continue;
-      const Point3 from_camera = view.place.seen_from_camera({point.x, point.y, 0});
-      if (!(from_camera.z > 0)) continue;
-      const ImagePoint pixel = image_of(view.camera, from_camera);
-      if (!(pixel.u >= 0 && pixel.v >= 0 && pixel.u <= view.camera.size.width - 1 &&
-            pixel.v <= view.camera.size.height - 1)) {
-        continue;
-      }
-      ++seen;
-      const cv::Point2f floor(static_cast<float>(point.x), static_cast<float>(point.y));
-      if (cv::pointPolygonTest(hull, floor, false) >= 0) ++covered;
-    }
-  }
-  return seen == 0 ? 0 : static_cast<double>(covered) / seen;
+  std::vector<ReferenceTag> tags;
+  for (const SeenTag& seen : question.seen)
+    tags.push_back(seen.tag);
+  return share_within_tags(tags, view, question.arena);
 }
 
 /// Root mean square error of a tag's corners on the floor, for a view.

@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "base/median.h"
 #include "base/plain_text.h"
+#include "tracking/motion/internal/bodies.h"
 #include "tracking/motion/internal/clock_checks.h"
 #include "tracking/motion/internal/known_errors.h"
 #include "tracking/motion/internal/robot_tags.h"
@@ -28,6 +30,8 @@ constexpr double kFirstLook_s = 2;
 
 constexpr Question kOffset{"fit of the tag's offset", "mm",
                            "a tag beside its robot's centre: scores look better than they are"};
+constexpr Question kSpread{"floor tags around the arena", "%",
+                           "positions that are guesses near the walls"};
 constexpr Question kUnknown{"undeclared tags", "", "a robot with another number"};
 
 /// One sigma on the floor from the calibration: half of the worst tag's leave-one-out error, which
@@ -329,6 +333,60 @@ void judge_lenses(const Rig& rig, const Arena& arena, TrackedRun& run) {
   }
 }
 
+/// Checks whether the floor tags surround the arena of this run. The calibration of the place asked
+/// the same of the arena that it was given.
+void judge_survey(const Rig& rig, const Arena& arena, TrackedRun& run) {
+  const double limit = PlaceLimits{}.least_coverage;
+  for (const CameraSetup& camera : rig.cameras) {
+    const std::optional<View> view = rig.view_of(camera);
+    if (!view) continue;
+    std::vector<ReferenceTag> tags;
+    for (const PlaceCalibration::Seen& seen : rig.places.at(camera.place_file).tags)
+      tags.push_back(seen.tag);
+    const double share = share_within_tags(tags, *view, corners_of(arena));
+    const bool is_within = share >= limit;
+    run.checks.push_back(answered(kSpread, camera.name,
+                                  is_within ? Check::Outcome::Passed : Check::Outcome::Failed,
+                                  100 * share, 100 * limit));
+    if (is_within) continue;
+    run.issues.push_back(
+        {IssueCode::ReferenceTags,
+         fmt::format("the floor tags of camera {} surround {:.0f} % of the mission's arena, at "
+                     "least {:.0f} % is needed, else positions are extrapolated; lay tags near its "
+                     "walls, and `swarmsmith track calibrate arena --mission` with this mission",
+                     camera.name, 100 * share, 100 * limit)});
+  }
+}
+
+/// The reason why a camera cannot film as its setup says: it reads out and exposes one picture
+/// after another.
+std::optional<Error> flaw_of_shutter(const CameraRecord& record, const Repeats& repeats,
+                                     const CameraSetup& camera, const std::string& file) {
+  std::vector<double> intervals;
+  std::optional<double> last_s;
+  for (std::size_t i = 0; i < record.frame_times.size(); ++i) {
+    if (repeats.again[i]) continue;
+    if (last_s) intervals.push_back(record.frame_times[i] - *last_s);
+    last_s = record.frame_times[i];
+  }
+  if (intervals.empty()) return std::nullopt;
+  const double interval_s = upper_median(std::move(intervals));
+  // Clocks round to milliseconds.
+  constexpr double kRounding_s = 0.001;
+  for (const auto& [key, time_s] :
+       {std::pair{"readout", camera.readout_s}, {"exposure", camera.exposure_s}}) {
+    if (time_s <= interval_s + kRounding_s) continue;
+    return error_of(
+        IssueCode::Config,
+        fmt::format(
+            "`{}` of camera \"{}\" is {:.1f} ms, and its film has a picture each {:.1f} ms; "
+            "give the time that the camera needs for one picture",
+            key, camera.name, 1000 * time_s, 1000 * interval_s),
+        file);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string_view name_of(CycleKind kind) {
@@ -381,6 +439,11 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
   for (std::size_t c = 0; c < cameras->size(); ++c)
     repeats.push_back(
         repeats_of(observations, static_cast<int>(c), rig.robots, asked.limits.corner_speed_m_s));
+  for (std::size_t c = 0; c < cameras->size(); ++c) {
+    const CameraRecord& record = observations.cameras[c];
+    if (auto flaw = flaw_of_shutter(record, repeats[c], *rig.setup_of(record.camera), rig.file))
+      return Unexpected(std::move(*flaw));
+  }
   FrameReport frames = frame_report(observations, *cameras, repeats, rig, asked);
   const TrackOptions options = for_rate(asked, frames.frame_rate_median);
   TrackedRun run{.covered_s = frames.covered_s,
@@ -434,10 +497,12 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
   std::ranges::move(of_speeds.issues, std::back_inserter(run.issues));
   std::ranges::move(of_speeds.checks, std::back_inserter(run.checks));
   judge_lenses(rig, arena, run);
+  judge_survey(rig, arena, run);
   const std::vector<TrackedTag> tags = seen_tags(robots, several, run);
   const std::vector<TagEvidence> evidence =
       judge_tags(tags, observations, *cameras, rig, options.limits, run);
   judge_travel(robots, tracks, arena, options, run);
+  judge_bodies(tracks, arena, options, run);
   add_known_errors(tags, evidence, *cameras, rig, run);
   return run;
 }

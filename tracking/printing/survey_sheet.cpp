@@ -4,11 +4,16 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/drawing/figure_style.h"
+#include "base/plain_text.h"
+#include "tracking/geometry/tag_family.h"
 #include "tracking/printing/internal/page.h"
+#include "tracking/printing/tag_sheet.h"
 
 namespace swarmsmith {
 namespace {
@@ -175,6 +180,57 @@ std::string corner_distances(const Arena& arena) {
   return text;
 }
 
+/// The side of a tag with its quiet zone.
+double side_of(double edge_m) {
+  return 1.25 * edge_m;
+}
+
+/// Whether the tags lie within the walls, and none over another.
+bool have_room(const std::vector<Pose>& places, const SurveySheetOptions& options) {
+  const double side = side_of(options.edge_m);
+  for (const Pose& place : places) {
+    for (const double x : {-side / 2, side / 2})
+      for (const double y : {-side / 2, side / 2})
+        if (!is_inside(options.arena, {place.x + x, place.y + y})) return false;
+    for (const Pose& other : places) {
+      if (&other != &place && std::abs(place.x - other.x) < side &&
+          std::abs(place.y - other.y) < side)
+        return false;
+    }
+  }
+  return true;
+}
+
+/// Why no form can be made for these tags and this arena.
+std::optional<Error> flaw_of(const SurveySheetOptions& options) {
+  const auto flaw = [](std::string text, std::string option) {
+    return Error{ErrorKind::BadInput, std::move(text), std::move(option)};
+  };
+  if (options.ids.empty()) return flaw("no ids; write them as 100-105", "--ids");
+  int tags = 0;
+  for (const TagFamily& family : known_tag_families())
+    tags = std::max(tags, family.tags);
+  for (const int id : options.ids) {
+    if (id >= tags) return flaw(fmt::format("no family has a tag {}", id), "--ids");
+  }
+  if (!(options.edge_m >= kLeastPrintedEdge_m && options.edge_m <= kMostPrintedEdge_m)) {
+    return flaw(fmt::format("{} m is not from {} to {} m", options.edge_m, kLeastPrintedEdge_m,
+                            kMostPrintedEdge_m),
+                "--edge");
+  }
+  // Arena files take places up to this distance.
+  constexpr double kMost_m = 100;
+  double most = 0;
+  for (const Point& corner : corners_of(options.arena)) {
+    const double reach = std::hypot(corner.x, corner.y);
+    if (!(reach <= most)) most = reach;
+  }
+  if (most <= kMost_m) return std::nullopt;
+  return flaw(
+      fmt::format("the arena reaches to {:.4g} m from its middle, limit {:g} m", most, kMost_m),
+      "--area");
+}
+
 }  // namespace
 
 std::vector<Pose> suggested_places(const Arena& arena, std::size_t tags, double edge_m) {
@@ -182,7 +238,7 @@ std::vector<Pose> suggested_places(const Arena& arena, std::size_t tags, double 
   for (const Wall& wall : arena.walls)
     inradius = std::min(inradius, distance_to_line(wall));
   // Half of the diagonal of the tag with its quiet zone, and two centimetres from the wall.
-  const double radius = inradius - edge_m * 1.25 * std::numbers::sqrt2 / 2 - 0.02;
+  const double radius = inradius - side_of(edge_m) * std::numbers::sqrt2 / 2 - 0.02;
   std::vector<Pose> places;
   for (std::size_t i = 0; i < tags; ++i) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(tags);
@@ -192,11 +248,11 @@ std::vector<Pose> suggested_places(const Arena& arena, std::size_t tags, double 
 }
 
 Expected<std::string> survey_sheet(const SurveySheetOptions& options) {
+  if (auto flaw = flaw_of(options)) return tl::unexpected(std::move(*flaw));
   const double width = options.paper.width_mm - 2 * kPageMargin;
   const double table_top = kTop + kPicture + 12;
   const double room = options.paper.height_mm - kPageMargin - kFootHeight - 2 - table_top;
   const auto most = static_cast<std::size_t>(room / kRow) - 1;
-  if (options.ids.empty()) return bad_input("no ids; write them as 100-105", "--ids");
   if (options.ids.size() > most) {
     return bad_input(fmt::format("{} tags, but the form has {} lines; print two forms",
                                  options.ids.size(), most),
@@ -204,6 +260,13 @@ Expected<std::string> survey_sheet(const SurveySheetOptions& options) {
   }
   const std::vector<Pose> places =
       suggested_places(options.arena, options.ids.size(), options.edge_m);
+  if (!have_room(places, options)) {
+    const bool is_one = options.ids.size() == 1;
+    return bad_input(fmt::format("{} of {} m {} not fit into the arena; use smaller tags{}",
+                                 counted(options.ids.size(), "tag"), options.edge_m,
+                                 is_one ? "does" : "do", is_one ? "" : ", or fewer"),
+                     "--edge");
+  }
   Svg svg = empty_page(options.paper, "Survey of the floor tags", "A form to fill in");
   svg.text({kPageMargin, kPageMargin + 4}, "Survey of the floor tags",
            {.size = 5, .bold = true, .fill = ink_text()});

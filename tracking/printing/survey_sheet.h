@@ -22,8 +22,8 @@ struct SurveySheetOptions {
 std::vector<Pose> suggested_places(const Arena& arena, std::size_t tags, double edge_m);
 
 /// A page with the arena from above and a position for each tag, an explanation of a tag's corners
-/// and angle, and a table for the measured numbers. BadInput without an id, or with more ids than
-/// the page has lines.
+/// and angle, and a table for the measured numbers. BadInput without an id, with more ids than
+/// the page has lines, or for an edge, an area or tags that no arena file could have.
 Expected<std::string> survey_sheet(const SurveySheetOptions& options);
 
 }  // namespace swarmsmith

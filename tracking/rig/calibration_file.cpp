@@ -3,16 +3,27 @@
 #include <cmath>
 
 #include "base/text/table_reader.h"
+#include "base/text/toml_text.h"
+#include "sim/files/read_place.h"
 #include "tracking/rig/calibration_limits.h"
+#include "tracking/rig/internal/rig_limits.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr Limits<double> kAny{-1e9, 1e9};
-constexpr Limits<double> kPositive{1e-9, 1e9};
-constexpr Limits<double> kNotNegative{0, 1e9};
-constexpr Limits<std::int64_t> kCount{0, 1'000'000'000};
+/// Wider than any calibration can be: these limits refuse a number that was damaged or has another
+/// unit, with its line. Whether the calibration is good enough is checked afterwards.
+constexpr Limits<double> kInPicture{-1e6, 1e6};
+constexpr Limits<double> kPixelError{0, 1e5};
+constexpr Limits<double> kFloorError{0, 100};
+constexpr Limits<double> kTurn{0, 1e5};
+constexpr Limits<double> kAngle{-7, 7};
+constexpr Limits<double> kDistortion{-1e4, 1e4};
+/// The camera is at most this far from the floor's origin, in each direction.
+constexpr Limits<double> kTranslation{-300, 300};
+constexpr Limits<std::int64_t> kCount{0, 1'000'000};
+
 constexpr Limits<double> kShare{0, 1.0 + 1e-9};
 
 /// A calibration file that is being read; complaints become errors of the configuration.
@@ -75,9 +86,9 @@ double number_of(TableReader& table, const char* key, Limits<double> limits) {
   return table.number(key, limits).value_or(0);
 }
 
-int count_of(TableReader& table, const char* key) {
+int count_of(TableReader& table, const char* key, Limits<std::int64_t> limits = kCount) {
   need(table, key);
-  return static_cast<int>(table.integer(key, kCount).value_or(0));
+  return static_cast<int>(table.integer(key, limits).value_or(0));
 }
 
 std::string text_of(TableReader& table, const char* key) {
@@ -109,7 +120,9 @@ std::vector<ImagePoint> read_hull(TableReader& table) {
     if (const auto* whole = std::get_if<std::int64_t>(&value))
       values.push_back(static_cast<double>(*whole));
   }
-  const auto is_in_reach = [](double value) { return std::abs(value) <= 1e6; };
+  const auto is_in_reach = [](double value) {
+    return value >= kInPicture.least && value <= kInPicture.most;
+  };
   const bool good = array != nullptr && values.size() == array->items.size() &&
                     values.size() % 2 == 0 && std::ranges::all_of(values, is_in_reach);
   if (!good) {
@@ -123,7 +136,8 @@ std::vector<ImagePoint> read_hull(TableReader& table) {
 }
 
 /// An array of exactly `count` numbers.
-std::vector<double> row_of(TableReader& table, const char* key, std::size_t count) {
+std::vector<double> row_of(TableReader& table, const char* key, std::size_t count,
+                           Limits<double> limits) {
   std::vector<double> values(count);
   need(table, key);
   const Node* node = table.take(key);
@@ -139,11 +153,12 @@ std::vector<double> row_of(TableReader& table, const char* key, std::size_t coun
     } else {
       good = false;
     }
-    good = good && std::abs(values[i]) <= 1e9;
+    good = good && values[i] >= limits.least && values[i] <= limits.most;
   }
   if (!good) {
     table.complain(key, "`" + std::string(key) + "` must be a list of " + std::to_string(count) +
-                            " numbers between -1e9 and 1e9");
+                            " numbers from " + number_text(limits.least) + " to " +
+                            number_text(limits.most));
   }
   return values;
 }
@@ -158,12 +173,15 @@ CameraModel read_model(TableReader& table) {
   model.size.height = static_cast<int>(table.integer("height", {16, 65'536}).value_or(16));
   model.lens =
       table.choice("lens", kLenses).value_or("") == "fisheye" ? Lens::Fisheye : Lens::Pinhole;
-  model.fx = number_of(table, "fx", kPositive);
-  model.fy = number_of(table, "fy", kPositive);
-  model.cx = number_of(table, "cx", kAny);
-  model.cy = number_of(table, "cy", kAny);
+  // From a fisheye lens that sees behind itself to a telescope.
+  const double side = std::max(model.size.width, model.size.height);
+  const Limits<double> focal{0.05 * side, 100 * side};
+  model.fx = number_of(table, "fx", focal);
+  model.fy = number_of(table, "fy", focal);
+  model.cx = number_of(table, "cx", kInPicture);
+  model.cy = number_of(table, "cy", kInPicture);
   const std::size_t count = model.lens == Lens::Fisheye ? 4 : 5;
-  const std::vector<double> distortion = row_of(table, "distortion", count);
+  const std::vector<double> distortion = row_of(table, "distortion", count, kDistortion);
   std::copy(distortion.begin(), distortion.end(), model.distortion.begin());
   table.finish();
   return model;
@@ -178,34 +196,34 @@ bool is_rotation(const std::array<double, 9>& rows) {
 
 PlaceCalibration::Seen read_seen(TableReader& table) {
   PlaceCalibration::Seen seen;
-  seen.tag.tag = count_of(table, "tag");
-  seen.tag.pose = {number_of(table, "x", kAny), number_of(table, "y", kAny),
-                   number_of(table, "heading_rad", {-7, 7})};
-  seen.tag.edge_m = number_of(table, "edge", kPositive);
-  const std::vector<double> corners = row_of(table, "corners", 8);
+  seen.tag.tag = count_of(table, "tag", kTagNumber);
+  seen.tag.pose = {number_of(table, "x", kCoordinate), number_of(table, "y", kCoordinate),
+                   number_of(table, "heading_rad", kAngle)};
+  seen.tag.edge_m = number_of(table, "edge", kTagEdge);
+  const std::vector<double> corners = row_of(table, "corners", 8, kInPicture);
   for (std::size_t i = 0; i < seen.corners.size(); ++i)
     seen.corners[i] = {corners[2 * i], corners[2 * i + 1]};
-  seen.rms_px = number_of(table, "rms_px", kNotNegative);
-  seen.left_out_m = number_of(table, "left_out_m", kNotNegative);
+  seen.rms_px = number_of(table, "rms_px", kPixelError);
+  seen.left_out_m = number_of(table, "left_out_m", kFloorError);
   table.finish();
   return seen;
 }
 
 /// Reads the entries of an offset calibration for one tag.
 void read_tag(TableReader& table, OffsetCalibration& calibration) {
-  calibration.tag = count_of(table, "tag");
-  calibration.edge_m = number_of(table, "edge", kPositive);
-  calibration.height_m = number_of(table, "height", kNotNegative);
-  calibration.offset.x_m = number_of(table, "x", kAny);
-  calibration.offset.y_m = number_of(table, "y", kAny);
+  calibration.tag = count_of(table, "tag", kTagNumber);
+  calibration.edge_m = number_of(table, "edge", kTagEdge);
+  calibration.height_m = number_of(table, "height", kTagHeight);
+  calibration.offset.x_m = number_of(table, "x", kCoordinate);
+  calibration.offset.y_m = number_of(table, "y", kCoordinate);
   need(table, "has_yaw");
   calibration.has_yaw = table.boolean("has_yaw").value_or(false);
-  calibration.offset.yaw_rad = number_of(table, "yaw_rad", {-7, 7});
-  calibration.rms_m = number_of(table, "rms_m", kNotNegative);
-  calibration.sigma_x_m = number_of(table, "sigma_x_m", kNotNegative);
-  calibration.sigma_y_m = number_of(table, "sigma_y_m", kNotNegative);
-  calibration.drift_m_s = number_of(table, "drift_m_s", kNotNegative);
-  calibration.turned_rad = number_of(table, "turned_rad", kNotNegative);
+  calibration.offset.yaw_rad = number_of(table, "yaw_rad", kAngle);
+  calibration.rms_m = number_of(table, "rms_m", kFloorError);
+  calibration.sigma_x_m = number_of(table, "sigma_x_m", kFloorError);
+  calibration.sigma_y_m = number_of(table, "sigma_y_m", kFloorError);
+  calibration.drift_m_s = number_of(table, "drift_m_s", kFloorError);
+  calibration.turned_rad = number_of(table, "turned_rad", kTurn);
   calibration.samples = count_of(table, "samples");
 }
 
@@ -222,11 +240,11 @@ OrComplaints<CameraCalibration> parse_camera_calibration(std::string_view text,
   calibration.board = text_of(root, "board");
   calibration.views = count_of(root, "views");
   calibration.views_dropped = count_of(root, "views_dropped");
-  calibration.rms_px = number_of(root, "rms_px", kNotNegative);
-  calibration.worst_view_px = number_of(root, "worst_view_px", kNotNegative);
+  calibration.rms_px = number_of(root, "rms_px", kPixelError);
+  calibration.worst_view_px = number_of(root, "worst_view_px", kPixelError);
   calibration.coverage = number_of(root, "coverage", kShare);
   calibration.hull = read_hull(root);
-  calibration.focal_sigma_px = number_of(root, "focal_sigma_px", kNotNegative);
+  calibration.focal_sigma_px = number_of(root, "focal_sigma_px", kPixelError);
   need(root, "model");
   if (auto model = root.table("model")) calibration.model = read_model(*model);
   root.finish();
@@ -242,9 +260,9 @@ OrComplaints<PlaceCalibration> parse_place_calibration(std::string_view text,
   if (!read_head(root, "place")) return tl::unexpected(read.errors());
   calibration.made = text_of(root, "made");
   calibration.camera_sha256 = text_of(root, "camera_sha256");
-  const std::vector<double> rotation = row_of(root, "rotation", 9);
+  const std::vector<double> rotation = row_of(root, "rotation", 9, {-2, 2});
   std::copy(rotation.begin(), rotation.end(), calibration.place.rotation.begin());
-  const std::vector<double> t = row_of(root, "translation", 3);
+  const std::vector<double> t = row_of(root, "translation", 3, kTranslation);
   calibration.place.translation = {t[0], t[1], t[2]};
   if (root.complaints() == 0 && !is_rotation(calibration.place.rotation)) {
     root.complain("rotation",
@@ -252,9 +270,9 @@ OrComplaints<PlaceCalibration> parse_place_calibration(std::string_view text,
                   "be orthogonal and not mirror; make the file again with "
                   "`swarmsmith track calibrate arena`");
   }
-  calibration.rms_px = number_of(root, "rms_px", kNotNegative);
-  calibration.worst_left_out_m = number_of(root, "worst_left_out_m", kNotNegative);
-  calibration.worst_tag = count_of(root, "worst_tag");
+  calibration.rms_px = number_of(root, "rms_px", kPixelError);
+  calibration.worst_left_out_m = number_of(root, "worst_left_out_m", kFloorError);
+  calibration.worst_tag = count_of(root, "worst_tag", kTagNumber);
   calibration.coverage = number_of(root, "coverage", kShare);
   for (TableReader& seen : root.tables("seen"))
     calibration.tags.push_back(read_seen(seen));
@@ -263,7 +281,7 @@ OrComplaints<PlaceCalibration> parse_place_calibration(std::string_view text,
   // the camera must only be above the floor.
   PlaceLimits limits;
   limits.least_height_m = 0;
-  limits.most_height_m = kAny.most;
+  limits.most_height_m = kCameraHeight.most;
   return read.finish(std::move(calibration), limits);
 }
 

@@ -10,7 +10,7 @@ namespace swarmsmith {
 namespace {
 
 /// In the order of IssueCode.
-constexpr std::array<std::string_view, 52> kNames = {"E_VIDEO_UNREADABLE",
+constexpr std::array<std::string_view, 53> kNames = {"E_VIDEO_UNREADABLE",
                                                      "E_VIDEO_TRUNCATED",
                                                      "E_CALIB_SIZE",
                                                      "E_CALIB_QUALITY",
@@ -61,8 +61,9 @@ constexpr std::array<std::string_view, 52> kNames = {"E_VIDEO_UNREADABLE",
                                                      "E_FILM_SPEED",
                                                      "W_TAG_PLACE",
                                                      "W_PUSHED",
-                                                     "E_TAGS_DISAGREE"};
-static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::TagsDisagree) + 1);
+                                                     "E_TAGS_DISAGREE",
+                                                     "W_BODIES_OVERLAP"};
+static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::BodiesOverlap) + 1);
 
 constexpr std::array<std::string_view, 3> kVerdicts = {"VALID", "DEGRADED", "INVALID"};
 

@@ -66,6 +66,7 @@ enum class IssueCode {
   TagPlaceDoubtful,  ///< a warning: a tag may not be exactly where it was calibrated
   PushedDoubtful,    ///< a warning: a robot may have been pushed
   TagsDisagree,      ///< the tags of one robot contradict their calibration
+  BodiesOverlap,     ///< a warning: robots are inside each other, or in walls, for long
 };
 
 /// The name of an issue: "E_GAP".

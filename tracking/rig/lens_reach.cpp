@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "base/math.h"
+#include "sim/mission/polygon.h"
 
 namespace swarmsmith {
 namespace {
@@ -35,7 +38,68 @@ double outside_by(const std::vector<ImagePoint>& hull, const ImagePoint& point) 
   return most;
 }
 
+/// The convex hull of points, counter-clockwise (Andrew's monotone chain).
+std::vector<Point> hull_of(std::vector<Point> points) {
+  std::ranges::sort(points, [](const Point& a, const Point& b) {
+    return a.x < b.x || (a.x == b.x && a.y < b.y);
+  });
+  std::vector<Point> hull;
+  const auto add = [&](const Point& point, std::size_t least) {
+    const auto turns_left = [&](const Point& a, const Point& b) {
+      return (b.x - a.x) * (point.y - a.y) > (b.y - a.y) * (point.x - a.x);
+    };
+    while (hull.size() > least && !turns_left(hull[hull.size() - 2], hull.back()))
+      hull.pop_back();
+    hull.push_back(point);
+  };
+  for (const Point& point : points)
+    add(point, 1);
+  const std::size_t lower = hull.size();
+  for (auto point = points.rbegin(); point != points.rend(); ++point)
+    add(*point, lower);
+  if (hull.size() > 1) hull.pop_back();
+  return hull;
+}
+
 }  // namespace
+
+double share_within_tags(std::span<const ReferenceTag> tags, const View& view,
+                         std::span<const Point> arena) {
+  std::vector<Point> corners;
+  for (const ReferenceTag& tag : tags)
+    std::ranges::copy(corners_of(tag), std::back_inserter(corners));
+  const std::vector<Point> hull = hull_of(std::move(corners));
+  if (hull.size() < 3 || arena.empty()) return 0;
+  Point low = arena.front();
+  Point high = low;
+  for (const Point& corner : arena) {
+    low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
+    high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
+  }
+  constexpr double kCells_1_m = 50;
+  constexpr double kMostCells = 500;
+  const double cells_1_m =
+      std::min(kCells_1_m, kMostCells / std::max(high.x - low.x, high.y - low.y));
+  const auto cell = [&](double at) { return static_cast<int>(std::floor(at * cells_1_m)); };
+  int seen = 0;
+  int covered = 0;
+  for (int row = cell(low.y); row <= cell(high.y); ++row) {
+    for (int column = cell(low.x); column <= cell(high.x); ++column) {
+      const Point point{(column + 0.5) / cells_1_m, (row + 0.5) / cells_1_m};
+      if (!is_within(arena, point)) continue;
+      const Point3 from_camera = view.place.seen_from_camera({point.x, point.y, 0});
+      if (!(from_camera.z > 0)) continue;
+      const ImagePoint pixel = image_of(view.camera, from_camera);
+      if (!(pixel.u >= 0 && pixel.v >= 0 && pixel.u <= view.camera.size.width - 1 &&
+            pixel.v <= view.camera.size.height - 1)) {
+        continue;
+      }
+      ++seen;
+      if (is_within(hull, point)) ++covered;
+    }
+  }
+  return seen == 0 ? 0 : static_cast<double>(covered) / seen;
+}
 
 std::optional<double> share_beyond_reach(const CameraCalibration& lens, const CameraPlace& place,
                                          const Arena& arena) {

@@ -25,6 +25,16 @@ void check_place(const Rig& rig, const CameraSetup& camera, std::vector<Error>& 
                               camera.place_file));
   }
   const double height_m = place->second.place.centre().z;
+  if (!(height_m >= camera.least_height_m && height_m <= camera.most_height_m)) {
+    errors.push_back(error_of(
+        IssueCode::Extrinsics,
+        "camera \"" + camera.name + "\" hangs at " + number_text(height_m) +
+            " m in this file, and `height` of " + rig.file + " says [" +
+            number_text(camera.least_height_m) + ", " + number_text(camera.most_height_m) +
+            "]; measure its height, then correct `height`, or find its place again: `swarmsmith "
+            "track calibrate arena`",
+        camera.place_file));
+  }
   for (const RobotSetup& robot : each_tag(rig.robots)) {
     if (robot.height_m < height_m) continue;
     errors.push_back(error_of(IssueCode::Config,

@@ -13,13 +13,11 @@
 #include "sim/mission/polygon.h"
 #include "tracking/geometry/tag_family.h"
 #include "tracking/rig/internal/config_errors.h"
+#include "tracking/rig/internal/rig_limits.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr Limits<double> kEdge{0.005, 2};
-constexpr Limits<double> kTagHeight{0, 20};
-constexpr Limits<double> kCameraHeight{0.05, 100};
 /// Limits of a frame's exposure and readout; frames of a second are far too slow for tracking.
 constexpr Limits<double> kFrameTime{0, 1};
 /// Limits of one sigma of a manual measurement.
@@ -93,7 +91,7 @@ ReferenceTag read_reference(TableReader& table, Reading& reading) {
   const Point place = need_point(table);
   reference.tag = read_tag(table, reading, "the floor at " + point_text(place));
   reference.pose = {place.x, place.y, read_heading(table)};
-  reference.edge_m = need(table, "edge", kEdge);
+  reference.edge_m = need(table, "edge", kTagEdge);
   table.finish();
   return reference;
 }
@@ -101,7 +99,7 @@ ReferenceTag read_reference(TableReader& table, Reading& reading) {
 /// Reads the values that a robot has for each of its tags.
 void read_tag_of(TableReader& table, Reading& reading, RobotSetup& robot) {
   robot.tag = read_tag(table, reading, "robot \"" + robot.name + "\"");
-  robot.edge_m = need(table, "edge", kEdge);
+  robot.edge_m = need(table, "edge", kTagEdge);
   robot.height_m = need(table, "height", kTagHeight);
   const auto lowest =
       std::ranges::min_element(reading.rig.cameras, {}, &CameraSetup::least_height_m);

@@ -46,6 +46,10 @@ std::vector<Error> misfits(const Rig& rig);
 /// now has other positions for these floor tags.
 std::vector<Issue> doubts_of_place(const Rig& rig, const CameraSetup& camera);
 
+/// The name of a run from the name of its film or log: without the ending, and with `_` in place of
+/// letters that a name may not have.
+std::string run_name_of(const std::filesystem::path& file);
+
 /// Reads the run log (docs/tracking.md); file names in it are relative to its folder.
 OrComplaints<RunLog> read_run_log(const std::filesystem::path& file);
 OrComplaints<RunLog> parse_run_log(std::string_view text, const std::filesystem::path& file);

@@ -10,6 +10,7 @@
 #include "sim/files/mission_file.h"
 #include "sim/files/read_place.h"
 #include "tracking/rig/internal/config_errors.h"
+#include "tracking/rig/internal/rig_limits.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
@@ -19,7 +20,6 @@ namespace {
 constexpr Limits<double> kClock{-1e12, 1e12};
 constexpr Limits<double> kAhead{-86'400, 86'400};
 constexpr Limits<double> kLength{0.1, 86'400};
-constexpr Limits<std::int64_t> kTag{0, 65'535};
 
 const std::vector<std::string> kSyncs = {"hidden", "shown"};
 
@@ -81,7 +81,7 @@ RunStart read_start(TableReader& root) {
   auto sync = root.table("sync");
   if (!sync) return start;
   if (!sync->has("tag")) sync->complain("tag", sync->name() + " needs a `tag`, its number");
-  start.sync_tag = static_cast<int>(sync->integer("tag", kTag).value_or(0));
+  start.sync_tag = static_cast<int>(sync->integer("tag", kTagNumber).value_or(0));
   if (!sync->has("when")) sync->complain("when", sync->name() + " needs `when`: hidden or shown");
   const auto when = sync->choice("when", kSyncs);
   if (when) start.sync = *when == "hidden" ? RunStart::Sync::Hidden : RunStart::Sync::Shown;
@@ -230,6 +230,20 @@ Section video_section(const RunVideo& video) {
 
 }  // namespace
 
+std::string run_name_of(const std::filesystem::path& file) {
+  const bool is_folder = file.filename().empty() && file.has_parent_path();
+  const std::string stem = (is_folder ? file.parent_path() : file).stem().string();
+  std::string name;
+  for (const char letter : stem) {
+    if (is_name(std::string_view(&letter, 1))) {
+      name += letter;
+    } else if (!name.ends_with('_')) {
+      name += '_';
+    }
+  }
+  return is_name(name) ? name : "run";
+}
+
 OrComplaints<RunLog> parse_run_log(std::string_view text, const std::filesystem::path& file) {
   const auto document = parse_document(text, file.string());
   if (!document) return tl::unexpected(config_errors({document.error()}));
@@ -237,7 +251,7 @@ OrComplaints<RunLog> parse_run_log(std::string_view text, const std::filesystem:
   TableReader root(*document, "", complaints);
   RunLog log;
   read_format(root);
-  log.name = root.text("name").value_or(file.stem().string());
+  log.name = root.text("name").value_or(run_name_of(file));
   if (root.has("name")) check_name(root, log.name, {});
   if (const auto date = root.date("recorded")) log.recorded = date_text(*date);
   log.mission = read_log_mission(root, file.parent_path());

@@ -59,6 +59,9 @@ std::string in_quotes(std::string_view text) {
 /// Longest time between two frames of one video.
 constexpr double kMostPause_s = 3600;
 
+/// Clocks may count from 1970; run logs have the same limit for `start`.
+constexpr double kMostClock_s = 1e12;
+
 struct Columns {
   std::size_t frame = 0;
   std::size_t time = 0;
@@ -159,6 +162,13 @@ Expected<std::vector<double>> parse_frame_times(std::string_view text) {
                                    "before, at {} s; if they are milli-, micro- or nanoseconds, "
                                    "name the column `time_ms`, `time_us` or `time_ns`",
                                    times.size(), *time, times.back()),
+                       where);
+    }
+    if (times.empty() && std::abs(*time) > kMostClock_s) {
+      return bad_times(fmt::format("frame 0 at {} s is not a time that a clock shows; if it is in "
+                                   "milli-, micro- or nanoseconds, name the column `time_ms`, "
+                                   "`time_us` or `time_ns`",
+                                   *time),
                        where);
     }
     times.push_back(*time);

@@ -2,9 +2,12 @@
 its exit code, and that nothing, or a run marked INVALID, is in the store."""
 import fcntl
 import json
+import os
 import re
 import shutil
+import sqlite3
 import struct
+import subprocess
 import unittest
 import zlib
 
@@ -425,6 +428,107 @@ class BadInput(unittest.TestCase):
         without_d4 = self.score(LAB.film("good"), "--design", "d4")
         self.assertEqual(without_d4.returncode, 4, without_d4.stderr)
         self.assertIn("no design d4", without_d4.stderr)
+
+    def test_same_film_with_another_start_is_the_same_run(self):
+        good = LAB.film("good")
+        self.assertEqual(self.score(good).returncode, 0)
+        for start in ("1.5 s", "0.9"):
+            other = self.score(good, "--start", start)
+            self.assertEqual(other.returncode, 3, other.stdout + other.stderr)
+            self.assertRegex(other.stderr, r"good\.mkv: r1 is of this film from 1\.20 s to 4\.20 s, and this run would be "
+                                           r"of it from .* it would count twice.*track rescore r1 --start")
+        self.assertEqual(len(runs_in(self.store)), 1)
+        again = call(TRACK, "rescore", "r1", "--store", self.store, "--start", "1.5 s")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        with sqlite3.connect(f"file:{self.store}?mode=ro", uri=True) as base:
+            self.assertEqual(base.execute("SELECT scorings FROM v_real_runs").fetchall(), [(2,)])
+        known = self.score(good, "--start", "1.5 s")
+        self.assertEqual(known.returncode, 0, known.stderr)
+        self.assertIn("stored already, as r1", known.stdout)
+        self.assertEqual(self.score(good).returncode, 3)
+        for words in (("--start", "soon"), ("--start", "1", "--sync-hidden", "99")):
+            done = call(TRACK, "rescore", "r1", "--store", self.store, *words)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn("--start: E_CONFIG", done.stderr)
+        several = call(TRACK, "rescore", "r1", "r1", "--store", self.store, "--start", "1.2")
+        self.assertEqual(several.returncode, 2, several.stdout)
+        self.assertIn("name one RUN", several.stderr)
+
+    def test_a_film_of_two_runs_has_two(self):
+        good = LAB.film("good")
+        mission = (good.parent / "good.mission.toml").read_text()
+        short = self.folder / "short.toml"
+        short.write_text(re.sub(r"^(duration|cycles) = .*$", 'duration = "1 s"', mission, flags=re.M))
+        for number, start in enumerate(("1.2 s", "2.5 s")):
+            done = self.score(good, "--mission", short, "--start", start)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertEqual("note: r1 is of the same film, from 1.20 s to 2.20 s" in done.stderr, number == 1, done.stderr)
+        self.assertEqual(len(runs_in(self.store)), 2)
+        wrong = call(TRACK, "rescore", "r2", "--store", self.store, "--start", "2 s")
+        self.assertEqual(wrong.returncode, 3, wrong.stdout)
+        self.assertIn("r1 is of this film", wrong.stderr)
+
+    def test_names_of_films_that_are_no_names(self):
+        good = LAB.film("good")
+        words = ("--arena", LAB.lab / "arena.toml", "--mission", good.parent / "good.mission.toml", "--start", "1.2",
+                 "--into", self.store)
+        for number, (name, wanted) in enumerate((("my run (2)", "my_run_2_"), ('a"b\'c', "a_b_c"), ("a\nb", "a_b"),
+                                                 ("x" * 240, "x" * 240), ("-x", "-x"))):
+            folder = self.folder / str(number)
+            folder.mkdir()
+            film = folder / f"{name}.mkv"
+            shutil.copy(good.parent / "good.mkv", film)
+            shutil.copy(good.parent / "good.times.csv", folder / f"{name}.times.csv")
+            self.store.unlink(missing_ok=True)
+            done = call(TRACK, "score", film, *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual([run[0] for run in runs_in(self.store)], [wanted])
+            for command in (("rescore", "r1"), ("report", "r1", "-o", folder / "r1.html")):
+                again = call(TRACK, *command, "--store", self.store)
+                self.assertEqual(again.returncode, 0, again.stderr)
+        before = runs_in(self.store)
+        film = os.path.join(os.fsencode(self.folder), b"a\xffb.mkv")
+        shutil.copy(good.parent / "good.mkv", film)
+        done = subprocess.run([os.fsencode(TRACK), b"score", film, *(os.fsencode(str(word)) for word in words)],
+                              capture_output=True, check=False)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn(b"is not UTF-8", done.stderr)
+        self.assertEqual(runs_in(self.store), before)
+
+    def test_cameras_that_cannot_be(self):
+        for number, (change, code, wanted, exit_code) in enumerate((
+                (('readout = "0 ms"', 'readout = "500 ms"'), "E_CONFIG", r"`readout` of camera \"ceiling\" is 500\.0 ms", 2),
+                (("height = [1.5, 4.5]", "height = [3.5, 4.5]"), "E_EXTRINSICS", r"hangs at 2\..* `height` of arena\.toml", 1),
+                (("height = [1.5, 4.5]", "height = [0, 4.5]"), "E_CONFIG", r"arena\.toml:\d+:\d+: .*`height`", 2),
+                (("height = [1.5, 4.5]", "height = [nan, 4.5]"), "E_CONFIG", r"arena\.toml:\d+:\d+: .*`height`", 2),
+                (("height = [1.5, 4.5]", "height = [1.5, 1e9]"), "E_CONFIG", r"arena\.toml:\d+:\d+: .*`height`", 2))):
+            arena = LAB.copy_of_lab(f"{self.folder.name}/{number}", arena_toml=[change])
+            self.assert_refused(self.score(LAB.film("good"), arena=arena), code, wanted, exit_code=exit_code)
+
+    def test_what_the_arena_says_of_a_shutter_is_corrected_by_rescoring(self):
+        def times():
+            with sqlite3.connect(f"file:{self.store}?mode=ro", uri=True) as base:
+                return [time for time, in base.execute("SELECT time_s FROM v_real_samples ORDER BY run, number")]
+        self.assertEqual(self.score(LAB.film("good")).returncode, 0)
+        before = times()
+        arena = LAB.copy_of_lab(f"{self.folder.name}/shutter", arena_toml=[('readout = "0 ms"', 'readout = "20 ms"')])
+        again = call(TRACK, "rescore", "r1", "--store", self.store, "--arena", arena)
+        self.assertIn(again.returncode, (0, 6), again.stderr)
+        later = [now - then for now, then in zip(times(), before, strict=True)]
+        self.assertTrue(all(0 < late < 0.02 for late in later))
+        self.assertGreater(max(later) - min(later), 0.002)
+        once_more = call(TRACK, "rescore", "r1", "--store", self.store)
+        self.assertEqual(once_more.returncode, again.returncode, once_more.stderr)
+        self.assertEqual([now - then for now, then in zip(times(), before, strict=True)], later)
+
+    def test_robots_that_are_larger_in_the_mission(self):
+        good = LAB.film("good")
+        mission = self.folder / "large.toml"
+        text = (good.parent / "good.mission.toml").read_text()
+        self.assertIn("length = 0.286, width = 0.286", text)
+        mission.write_text(text.replace("length = 0.286, width = 0.286", "length = 0.9, width = 0.9"))
+        done = self.score(good, "--mission", mission)
+        self.assert_stored_as(done, "DEGRADED", "W_BODIES_OVERLAP", "mm inside", "mission's robot larger")
 
     def test_same_run_with_another_calibration(self):
         self.score(LAB.film("good"))

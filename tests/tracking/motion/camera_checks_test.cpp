@@ -238,5 +238,46 @@ TEST(PlaceTest, IsDoubtfulWhenTheSurveyHasChanged) {
   EXPECT_EQ(run.issues.size(), 1U);
 }
 
+/// The file says what share of another arena its tags surround.
+TEST(PlaceTest, FloorTagsMustSurroundTheArenaOfTheRun) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 200});
+  const TrackedRun small = seen.track().value();
+  const Check* spread = find_check(small, "floor tags around the arena", "camera0");
+  ASSERT_NE(spread, nullptr);
+  EXPECT_EQ(spread->outcome, Check::Outcome::Passed);
+  EXPECT_NEAR(spread->value.value(), 62, 4);
+  seen.arena = regular_dodecagon(12);
+  const TrackedRun large = seen.track().value();
+  EXPECT_THAT(issue_of(large, IssueCode::ReferenceTags).text,
+              AllOf(HasSubstr("surround 2"), HasSubstr("at least 50 %"), HasSubstr("camera0"),
+                    HasSubstr("calibrate arena")));
+  spread = find_check(large, "floor tags around the arena", "camera0");
+  ASSERT_NE(spread, nullptr);
+  EXPECT_EQ(spread->outcome, Check::Outcome::Failed);
+}
+
+/// A camera reads out one picture after another.
+TEST(ShutterTest, ReadoutAndExposureEndBeforeTheNextPicture) {
+  struct Row {
+    double readout_s;
+    double exposure_s;
+    const char* wanted;
+  };
+  for (const Row& row : {Row{0.5, 0, "`readout` of camera \"camera0\" is 500.0 ms"},
+                         Row{0.036, 0, "`readout` of camera \"camera0\" is 36.0 ms"},
+                         Row{0, 0.1, "`exposure` of camera \"camera0\" is 100.0 ms"}}) {
+    SeenRun seen = seen_run(on_circle, {.cycles = 200, .frame_rate = 30});
+    seen.rig.cameras[0].readout_s = row.readout_s;
+    seen.rig.cameras[0].exposure_s = row.exposure_s;
+    EXPECT_THAT(complaint_of(seen.track()),
+                AllOf(HasSubstr("E_CONFIG"), HasSubstr(row.wanted),
+                      HasSubstr("a picture each 33.3 ms"), HasSubstr("arena.toml")));
+  }
+  SeenRun seen = seen_run(on_circle, {.cycles = 200, .frame_rate = 30});
+  seen.rig.cameras[0].readout_s = 0.033;
+  seen.rig.cameras[0].exposure_s = 0.033;
+  EXPECT_TRUE(seen.track());
+}
+
 }  // namespace
 }  // namespace swarmsmith

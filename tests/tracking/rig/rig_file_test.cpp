@@ -306,9 +306,21 @@ TEST(RigFile, RefusesATagAboveWhereTheCameraReallyHangs) {
   texts["ceiling.place.toml"] = calibration_text(low);
   const auto rig = value_of(parse_rig(kArena, "arena.toml", files(texts)));
   EXPECT_THAT(lines_of(misfits(rig)),
-              ElementsAre(AllOf(HasSubstr("E_CONFIG: `height` of robot \"rvr1\""),
+              ElementsAre(HasSubstr("camera \"ceiling\" hangs at 0.15 m"),
+                          AllOf(HasSubstr("E_CONFIG: `height` of robot \"rvr1\""),
                                 HasSubstr("hangs at 0.15 m; this is 0.2")),
                           HasSubstr("robot \"rvr2\"")));
+}
+
+TEST(RigFile, RefusesACameraThatHangsElsewhereThanItsHeightSays) {
+  for (const char* height : {"[0.5, 2.6]", "[2.8, 20]"}) {
+    const auto rig =
+        value_of(parse_rig(arena_with("[1.5, 4]", height), "arena.toml", files(calibrations())));
+    EXPECT_THAT(lines_of(misfits(rig)),
+                ElementsAre(AllOf(HasSubstr("ceiling.place.toml: E_EXTRINSICS: "),
+                                  HasSubstr("camera \"ceiling\" hangs at 2.7 m"), HasSubstr(height),
+                                  HasSubstr("calibrate arena"))));
+  }
 }
 
 }  // namespace

@@ -85,6 +85,28 @@ TEST(RunLogFile, HasTheNameOfItsFileWhenItSaysNone) {
   EXPECT_EQ(log.mission.name, "");
 }
 
+/// Whatever the file system takes, a store must be able to read its log again.
+TEST(RunLogFile, ANameFromAFileIsAlwaysAName) {
+  const std::vector<std::pair<std::string, std::string>> names = {
+      {"run07.mp4", "run07"},
+      {"films/my run (2).mp4", "my_run_2_"},
+      {"a\"b'c.mkv", "a_b_c"},
+      {"a\nb.mkv", "a_b"},
+      {"-x.mkv", "-x"},
+      {"a\xff\xfe.mkv", "a_"},
+      {"\xe8\xb5\xb0.mkv", "_"},
+      {"pictures/", "pictures"},
+      {"", "run"},
+      {std::string(3000, 'x') + ".mkv", "run"},
+  };
+  for (const auto& [file, name] : names) {
+    EXPECT_EQ(run_name_of(file), name) << file;
+    RunLog log = value_of(parse_run_log("format = 1\n", file));
+    EXPECT_EQ(log.name, name);
+    EXPECT_EQ(value_of(parse_run_log(run_log_text(log), "x.toml")), log);
+  }
+}
+
 TEST(RunLogFile, NamesEachMistakeByPlaceKeyAndWhatIsAllowed) {
   EXPECT_THAT(
       complaints_about(R"(format = 1

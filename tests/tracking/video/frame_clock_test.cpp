@@ -35,6 +35,19 @@ TEST(FrameTimes, NamesTheLineThatIsWrong) {
               HasSubstr("line 4: E_TIMESTAMPS: frame 1 at 1 s is not later"));
 }
 
+TEST(FrameTimes, RefusesNumbersThatNoClockShows) {
+  for (const char* unit : {"time_s", "time_ms", "time_us", "time_ns"}) {
+    for (const char* bad : {"nan", "-nan", "inf", "-inf", "1e300", "-1e300", "1e23", "-1e23"}) {
+      for (const char* before : {"", "0,0\n1,1\n"}) {
+        const std::string row = std::string(*before == 0 ? "0," : "2,") + bad;
+        EXPECT_THAT(refusal(std::string("frame,") + unit + "\n" + before + row + "\n"),
+                    HasSubstr(*before == 0 ? "line 2: E_TIMESTAMPS" : "line 4: E_TIMESTAMPS"))
+            << unit << " " << row;
+      }
+    }
+  }
+}
+
 TEST(FrameTimes, MayBeMillisecondsOrOfTheEpoch) {
   const auto times = parse_frame_times("frame,time_ms\n0,500\n1,533.25\n");
   EXPECT_THAT(*times, ElementsAre(0.5, 0.53325));

@@ -21,8 +21,6 @@ constexpr Question kLens{"lens calibration", "px",
 constexpr Question kPlace{"floor tags fit the camera's place", "px",
                           "a wrongly measured floor tag, another focus"};
 constexpr Question kLeftOut{"worst floor tag, left out", "mm", "a wrongly measured floor tag"};
-constexpr Question kSpread{"floor tags around the arena", "%",
-                           "positions that are guesses near the walls"};
 constexpr Question kEdited{"place file as it was made", "px", "an edited calibration"};
 constexpr Question kSurvey{"survey as it was calibrated", "",
                            "a corrected survey without a new calibration of the place"};
@@ -174,8 +172,6 @@ void check_calibrations(const Rig& rig, const CameraSetup& setup, std::vector<Ch
   within(kPlace, place.rms_px, most_px, place.rms_px <= most_px);
   within(kLeftOut, 1000 * place.worst_left_out_m, 1000 * limits.left_out_m,
          place.worst_left_out_m <= limits.left_out_m);
-  within(kSpread, 100 * place.coverage, 100 * limits.least_coverage,
-         place.coverage >= limits.least_coverage);
 }
 
 void check_place(const Rig& rig, const CameraSetup& setup, std::vector<Issue>& issues,
