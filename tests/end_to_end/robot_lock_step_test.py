@@ -189,7 +189,7 @@ class OverZeroMq(LockStep):
                               node.said())
         rover, _ = robots.mission_of_rovers(self)
         for words, why in ((("--kind", "epuck"), "the robot `epuck` has proximity sensors that give strengths"),
-                           (("--kind", rover, "--wheels", "twist"), "and the robot `rover` has another one"),
+                           (("--kind", rover, "--color-scale", "255", "--wheels", "twist"), "and the robot `rover` has another one"),
                            (("--kind", rover, "--color-scale", "255"), "let its driver send `neighbours`")):
             node = robots.Process(self, [robots.ROBOT, "run", "--robot", "1", "--machine", WATERMELON, "--flavour", "watermelon",
                                          "--transport", "zeromq", *words])

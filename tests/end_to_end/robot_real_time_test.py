@@ -275,7 +275,7 @@ class OverZeroMq(RealTime):
             done = self.start_run(2, run=run, words=words)
             self.assertEqual(done.end(), 0, done.said())
         self.assertTrue(any(speed(row) > 0 for row in self.rows("rvr1")))
-        self.assertRegex((self.folder / "run07.rvr1.toml").read_text(), r'(?m)^own_robot = "\[robot\]\\nname = \\"rover')
+        self.assertRegex((self.folder / "run07.rvr1.toml").read_text(), r'(?m)^own_robot = "\\n\[robot\]\\nname = \\"rover')
         self.assert_replays(6)
 
     def test_a_log_that_was_changed_does_not_replay(self):

@@ -47,7 +47,7 @@ TEST(Orders, CarryARobotThatIsNotTheRvr) {
   start.own_robot = own_robot_text(rvr_with(CircleOutline{0.1}));
   EXPECT_EQ(order_text(start), order_text(start_order())) << "the same bytes for RVRs";
   start.own_robot = own_robot_text(rover());
-  EXPECT_THAT(order_text(start), HasSubstr(R"(,"own_robot":"[robot]\nname = \"rover\"\n)"));
+  EXPECT_THAT(order_text(start), HasSubstr(R"(,"own_robot":"\n[robot]\nname = \"rover\"\n)"));
   const Order read = value_of(parse_order(order_text(start)));
   EXPECT_EQ(read, start);
   EXPECT_EQ(value_of(parse_own_robot(read.own_robot)), rover());
