@@ -3,9 +3,11 @@
 #include <utility>
 
 #include "base/text/whole_file.h"
+#include "robot/runtime/robot_kind.h"
 #include "sim/control/flavour_file.h"
 #include "sim/engine/fitting.h"
 #include "sim/files/machine_file.h"
+#include "sim/files/robot_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -29,7 +31,7 @@ Expected<FiledMachine> filed_machine(const std::string& word) {
 }  // namespace
 
 Expected<RobotMachine> robot_machine(const std::string& word, std::string flavour,
-                                     std::optional<TurnClock> turn_clock) {
+                                     std::optional<TurnClock> turn_clock, const Robot& kind) {
   const auto filed = filed_machine(word);
   if (!filed) return Unexpected(filed.error());
   if (flavour.empty()) flavour = filed->head.flavour;
@@ -49,15 +51,13 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
   }
   auto known = find_flavour(flavour, turn_clock.value_or(TurnClock::Cycles), own);
   if (!known) return Unexpected(known.error());
-  // Drivers support only the RVR's sensors and treads (docs/robot-messages.md).
-  if (const auto why = misfit(*known, rvr()))
-    return bad_input(*why + "; this program drives RVRs", filed->place);
-  const auto& mission = filed->head.mission;
-  if (mission && mission->mission.robot != rvr_with(mission->mission.robot.body.outline)) {
-    return bad_input("the machine was designed for the robot `" + mission->mission.robot.name +
-                         "`, but this program drives RVRs",
-                     filed->place);
+  if (const auto& mission = filed->head.mission) {
+    if (auto why = other_robot("the machine", mission->mission.robot, kind))
+      return bad_input(std::move(*why), filed->place);
   }
+  if (const auto why = misfit(*known, kind))
+    return bad_input(*why + "; give a machine of another flavour, or another --kind of robot",
+                     filed->place);
   auto controller = parse_controller(filed->text, *known);
   if (!controller) {
     Error error = controller.error();
@@ -67,6 +67,13 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
   if (const auto complaint = complaint_about_running(*controller, *known))
     return bad_input(*complaint, filed->place);
   return RobotMachine{std::move(*known), std::move(*controller)};
+}
+
+Expected<Robot> find_kind(const std::string& word) {
+  auto robot = find_robot(word, {});
+  if (!robot) return Unexpected(robot.error().front());
+  if (auto why = no_node_drives(*robot)) return bad_input(std::move(*why), "--kind " + word);
+  return std::move(*robot);
 }
 
 }  // namespace swarmsmith

@@ -21,6 +21,7 @@
 #include "robot/app/robot_names.h"
 #include "robot/app/stop_signal.h"
 #include "robot/app/transports.h"
+#include "sim/control/treads.h"
 #include "sim/files/color_text.h"
 #include "sim/mission/colors.h"
 
@@ -29,6 +30,7 @@ namespace {
 
 struct RunWords {
   std::string robot;
+  std::string kind = "rvr";
   std::optional<std::int64_t> index;
   std::string machine;
   std::string flavour;
@@ -103,15 +105,19 @@ Expected<void> read_name(const RunWords& words, NodeSettings& settings) {
   return {};
 }
 
-Expected<NodeSettings> settings_of(const RunWords& words) {
+Expected<NodeSettings> settings_of(const RunWords& words, const Robot& kind) {
   NodeSettings settings;
+  settings.kind = kind;
+  settings.feeds.rays_deg = kind.proximity.rays_deg;
   if (const auto read = read_name(words, settings); !read) return Unexpected(read.error());
   settings.seed = words.seed.value_or(1);
   settings.lock_step_run = words.run;
   if (!is_plain_name(words.run))
     return bad_input("a run's name must consist of letters, digits, - and _", "--run");
   settings.period = duration_of(words.period_s);
-  if (words.pace != Pace::Clock) settings.max_mps = kMaxWheelSpeed_mps;  // as in the simulator
+  const double most_mps = kind.drive.max_speed_mps;
+  settings.max_mps = std::min(settings.max_mps, most_mps);
+  if (words.pace != Pace::Clock) settings.max_mps = most_mps;  // as in the simulator
   settings.max_mps = words.max_mps.value_or(settings.max_mps);
   settings.feeds.color_scale = words.color_scale.value_or(settings.feeds.color_scale);
   settings.feeds.lidar_turn_rad = words.lidar_turn_deg * kPi / 180;
@@ -138,6 +144,22 @@ Expected<NodeSettings> settings_of(const RunWords& words) {
       settings.topics.emplace_back(topic.substr(0, at), topic.substr(at + 2));
   }
   return settings;
+}
+
+/// Twists and scans have numbers of the RVR in them.
+Expected<void> check_messages(const RunWords& words, const Robot& kind, bool sees_others) {
+  const std::string name = "the robot `" + kind.name + "`";
+  if (words.wheels == WheelsForm::Twist && kind.drive.track_m != kTreadDistance_m) {
+    return bad_input("a twist is for the distance between the RVR's treads, and " + name +
+                         " has another one; send `doubles` or `floats`",
+                     "--wheels twist");
+  }
+  if (words.pace != Pace::Senses && words.scan && sees_others && !is_rvr(kind)) {
+    return bad_input("the node finds only RVRs in a scan, and drives " + name +
+                         "; let its driver send `neighbours`",
+                     "--neighbours scan");
+  }
+  return {};
 }
 
 /// The topics to which the node subscribes.
@@ -199,9 +221,11 @@ ExitCode exit_code_of(NodeLoop::Ending ending) {
 
 ExitCode run(const RunWords& words, Output& output) {
   const Pace pace = words.pace;
-  const auto machine = robot_machine(words.machine, words.flavour, words.turn_clock);
+  const auto kind = find_kind(words.kind);
+  if (!kind) return fail(output, ExitCode::Usage, kind.error());
+  const auto machine = robot_machine(words.machine, words.flavour, words.turn_clock, *kind);
   if (!machine) return fail(output, ExitCode::Usage, machine.error());
-  auto settings = settings_of(words);
+  auto settings = settings_of(words, *kind);
   if (!settings) return fail(output, ExitCode::Usage, settings.error());
   LoopOptions loop_options{.pace = pace, .patience = duration_of(words.patience_s)};
   if (pace == Pace::Clock || !words.logs.empty())
@@ -220,6 +244,8 @@ ExitCode run(const RunWords& words, Output& output) {
                  "255 or 1",
                  "--color-scale"});
   }
+  const auto checked = check_messages(words, *kind, needed[index_of(Feed::Neighbours)]);
+  if (!checked) return fail(output, ExitCode::Usage, checked.error());
   auto end = open_robot_end(words.transport, settings->robot, end_options(words, needed), output);
   if (!end) {
     return fail(output, exit_code_of_transport(end.error()), end.error());
@@ -231,9 +257,9 @@ ExitCode run(const RunWords& words, Output& output) {
   loop_options.note = [&output](const std::string& text) { print_note(output, text); };
   if (!output.quiet) {
     print_note(output,
-               fmt::format("{}: {} of flavour {}, random stream {}, {}", settings->robot,
-                           name_of(architecture_of(machine->controller)), machine->flavour.name,
-                           settings->robot_index, settings->scheduling));
+               fmt::format("{}: robot {}, {} of flavour {}, random stream {}, {}", settings->robot,
+                           kind->name, name_of(architecture_of(machine->controller)),
+                           machine->flavour.name, settings->robot_index, settings->scheduling));
   }
   NodeLoop loop(node, **end, std::move(loop_options));
   return exit_code_of(loop.run());
@@ -245,6 +271,8 @@ CommandRun declare_robot_run(Options& options) {
   auto words = std::make_shared<RunWords>();
   constexpr auto kNeeded = Options::Need::Required;
   options.text("--robot ROBOT", words->robot, "Robot: 2 for rvr2; or its name", kNeeded);
+  options.text("--kind ROBOT|FILE", words->kind,
+               "Kind of robot: rvr, or a robot's file (default rvr)");
   options.text("--machine MACHINE|FILE", words->machine,
                "Machine, tree or network: a text or a file", kNeeded);
   options.text("--flavour FLAVOUR|FILE", words->flavour,

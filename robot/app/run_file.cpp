@@ -8,6 +8,7 @@
 
 #include "base/text/whole_file.h"
 #include "robot/log/log_file.h"
+#include "sim/files/mission_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -58,7 +59,7 @@ void RunFileWords::declare(Options& options) {
   options.text("--write FILE", write, "Run log for `swarmsmith track score` (default RUN.toml)");
   options.flag("--no-run-log", none, "Do not write a run log");
   options.text("--mission MISSION|FILE", run.mission,
-               "For that log: the mission, a name or a file");
+               "For that log: the mission, a name or a file; its robot is the kind of the robots");
   options.text("--design DESIGN", run.design, "For that log: the design whose winner ran, d3");
   options.text("--candidate CANDIDATE", run.candidate,
                "For that log: the candidate that ran, c812");
@@ -70,6 +71,19 @@ void RunFileWords::declare(Options& options) {
   options.integer("--sync-tag", sync_tag, {0, 100000}, "For that log: a tag covered at the start");
   options.flag("--patches", run.has_patches,
                "For that log: measure the colour patches in the video");
+}
+
+Expected<std::optional<Robot>> RunFileWords::robot_of_mission(const std::string& name) const {
+  if (run.mission.empty()) return std::nullopt;
+  std::error_code ignored;
+  auto mission = find_mission(
+      run.mission, std::filesystem::absolute(file_of(*this, name), ignored).parent_path());
+  if (!mission) {
+    Error error = mission.error().front();
+    error.message += "; the mission says which robot the run is for, or say it with --kind";
+    return Unexpected(std::move(error));
+  }
+  return std::move(mission->mission.robot);
 }
 
 Expected<void> RunFileWords::check(const std::string& name) const {

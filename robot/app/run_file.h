@@ -8,6 +8,7 @@
 #include "console/options.h"
 #include "robot/log/track_log.h"
 #include "robot/runtime/roll_call.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith {
 
@@ -21,6 +22,9 @@ struct RunFileWords {
   bool none = false;
 
   void declare(Options& options);
+  /// The robot of the mission, which is a name or a file beside the run log; nothing if none is
+  /// given.
+  Expected<std::optional<Robot>> robot_of_mission(const std::string& name) const;
   /// Called before the run: checks that the file can be written, and that no other file is lost by
   /// it.
   Expected<void> check(const std::string& name) const;

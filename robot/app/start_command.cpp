@@ -5,12 +5,14 @@
 
 #include "base/text/json.h"
 #include "robot/app/commands.h"
+#include "robot/app/machine_word.h"
 #include "robot/app/node_loop.h"
 #include "robot/app/operator_loop.h"
 #include "robot/app/robot_names.h"
 #include "robot/app/run_file.h"
 #include "robot/app/stop_signal.h"
 #include "robot/app/transports.h"
+#include "robot/runtime/robot_kind.h"
 
 namespace swarmsmith {
 namespace {
@@ -19,6 +21,7 @@ constexpr Duration kTurn = std::chrono::milliseconds(20);
 
 struct StartWords {
   std::string robots;
+  std::string kind;
   std::string run;
   double seconds = 120;
   double lead_s = 2;
@@ -27,6 +30,21 @@ struct StartWords {
   RunFileWords file;
   TransportWords transport;
 };
+
+/// The robot that the run is for: of --kind, else of --mission, else the RVR.
+Expected<Robot> kind_of(const StartWords& words) {
+  const auto of_mission = words.file.robot_of_mission(words.run);
+  if (words.kind.empty()) {
+    if (!of_mission) return Unexpected(of_mission.error());
+    return of_mission->value_or(rvr());
+  }
+  auto kind = find_kind(words.kind);
+  if (kind && of_mission && *of_mission) {
+    if (auto why = other_robot("the mission", **of_mission, *kind))
+      return bad_input(std::move(*why), "--kind " + words.kind);
+  }
+  return kind;
+}
 
 /// Reports the progress of a run.
 class Teller {
@@ -119,12 +137,15 @@ ExitCode start(const StartWords& words, Output& output) {
   }
   const auto place = words.file.check(words.run);
   if (!place) return fail(output, ExitCode::Usage, place.error());
+  const auto kind = kind_of(words);
+  if (!kind) return fail(output, ExitCode::Usage, kind.error());
   catch_stop_signals();
   const auto end = open_operator_end(words.transport, *names);
   if (!end) return fail(output, exit_code_of_transport(end.error()), end.error());
   RunStarter starter({.run = words.run,
                       .seconds = words.seconds,
                       .seed = words.seed,
+                      .kind = *kind,
                       .lead_s = words.lead_s,
                       .patience_s = words.patience_s},
                      *names, operator_id(), now_on_both_clocks());
@@ -176,6 +197,8 @@ CommandRun declare_robot_start(Options& options) {
                Options::Need::Required);
   options.text("--robots ROBOTS", words->robots, "Robots: 1-3 for rvr1, rvr2, rvr3; or their names",
                Options::Need::Required);
+  options.text("--kind ROBOT|FILE", words->kind,
+               "Kind of the robots: rvr, or a robot's file (default: the mission's robot, or rvr)");
   options.number("--seconds", words->seconds, {0.5, 86'400},
                  "How long the run lasts (default 120)");
   options.integer("--seed", words->seed, {1, 2147483647},

@@ -19,11 +19,14 @@
 #include "robot/app/stop_signal.h"
 #include "robot/app/transports.h"
 #include "robot/runtime/node_state.h"
+#include "robot/runtime/robot_kind.h"
 #include "robot/world/lock_step.h"
 #include "robot/world/real_time.h"
 #include "robot/world/sensor_messages.h"
+#include "sim/engine/fitting.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
+#include "sim/files/robot_file.h"
 #include "sim/mission/trajectory_csv.h"
 
 namespace swarmsmith {
@@ -139,14 +142,17 @@ Expected<Plan> plan_of(const WorldWords& words, Output& output) {
   auto mission = find_mission(words.mission, {});
   if (!mission) return complain(mission.error(), "--mission", output);
   plan.mission = std::move(mission->mission);
-  if (plan.mission.robot != rvr_with(plan.mission.robot.body.outline)) {
-    return bad_input("the mission has the robot `" + plan.mission.robot.name +
-                         "`, but nodes drive RVRs; `swarmsmith evaluate` simulates it",
-                     "--mission");
+  const Robot& kind = plan.mission.robot;
+  if (auto why = no_node_drives(kind)) return bad_input(std::move(*why), "--mission");
+  if (words.scan && !is_rvr(kind)) {
+    return bad_input("nodes find only RVRs in a scan, and the mission has the robot `" + kind.name +
+                         "`; send `neighbours`",
+                     "--neighbours scan");
   }
   auto profile = find_profile(words.profile, {});
   if (!profile) return complain(profile.error(), "--profile", output);
   plan.profile = std::move(*profile);
+  if (auto why = misfit(plan.profile, kind)) return bad_input(std::move(*why), "--profile");
   auto seeds = parse_seeds(words.seeds);
   if (!seeds) return Unexpected(seeds.error());
   plan.seeds = std::move(*seeds);
@@ -163,7 +169,7 @@ Expected<Plan> plan_of(const WorldWords& words, Output& output) {
   }
   if (const auto read = read_robots(words, plan); !read) return Unexpected(read.error());
   if (!words.machine.empty()) {
-    auto machine = robot_machine(words.machine, words.flavour, words.turn_clock);
+    auto machine = robot_machine(words.machine, words.flavour, words.turn_clock, kind);
     if (!machine) return Unexpected(machine.error());
     plan.machine = std::move(*machine);
   }
@@ -236,6 +242,15 @@ std::optional<TimePoint> start_of(const StateMessage& message) {
   return SystemClock().now() + duration_of(state->start_unix_s - now_unix_s);
 }
 
+/// Why a node does not fit a mission with this robot.
+std::optional<std::string> objection_to(const StateMessage& message, const Robot& kind) {
+  const auto state = parse_state(message.text);
+  if (!state) return state.error().message;
+  const auto driven = parse_own_robot(state->own_robot);
+  if (!driven) return driven.error().message;
+  return other_robot("the mission", kind, *driven);
+}
+
 ExitCode exit_code_of(const Error& error) {
   if (stop_signal() == SIGINT) return ExitCode::Interrupted;
   if (stop_signal() != 0) return ExitCode::Terminated;
@@ -250,6 +265,9 @@ class World {
     options_.patience = duration_of(words.patience_s);
     options_.tell = [&output](const std::string& text) { print_note(output, text); };
     options_.is_over = [] { return stop_signal() != 0; };
+    options_.objection = [&plan](const StateMessage& message) {
+      return objection_to(message, plan.mission.robot);
+    };
   }
 
   ExitCode run() {

@@ -222,6 +222,7 @@ void visit_head(Head& head, Field& field) {
   field("machine_digest", head.machine_digest);
   field("flavour", head.flavour);
   field.maybe(!head.own_flavour.empty(), "own_flavour", head.own_flavour);
+  field.maybe(!head.own_robot.empty(), "own_robot", head.own_robot);
   field("turn_clock", head.turn_clock);
   field("seed", head.seed, kCounts);
   field("lock_step", head.lock_step);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "base/text/toml_text.h"
 #include "sim/control/labeler.h"
 
 namespace swarmsmith {
@@ -15,13 +16,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFullColor = 255;
 
 /// A name such as "proximity sensor 3 (-90 degrees)".
-std::string proximity_sensor(std::size_t index) {
-  return "proximity sensor " + std::to_string(index) + " (" +
-         std::to_string(kProximityDirections_deg[index]) + " degrees)";
+std::string proximity_sensor(std::size_t index, const RingAngles& rays_deg) {
+  return "proximity sensor " + std::to_string(index) + " (" + number_text(rays_deg.at(index)) +
+         " degrees)";
 }
 
 std::string wrong_count(std::size_t came) {
-  return "expected " + std::to_string(kProximitySensors) + " values, got " + std::to_string(came);
+  return "expected " + std::to_string(kRangeSensors) + " values, got " + std::to_string(came);
 }
 
 std::uint8_t channel(double value, double scale) {
@@ -32,7 +33,8 @@ std::uint8_t channel(double value, double scale) {
 }  // namespace
 
 Feeds::Feeds(FeedSettings settings) : settings_(std::move(settings)) {
-  SWARMSMITH_ASSERT(settings_.color_scale > 0 && settings_.proximity_range_m > 0,
+  SWARMSMITH_ASSERT(settings_.color_scale > 0 && settings_.proximity_range_m > 0 &&
+                        settings_.rays_deg.size() == kRangeSensors,
                     "options were checked where they were read");
 }
 
@@ -55,14 +57,15 @@ void Feeds::accept(Feed feed, const Arrival& arrival) {
 
 void Feeds::hear(const RangesMessage& message) {
   const std::vector<double>& ranges = message.ranges_m;
-  if (ranges.size() != kProximitySensors)
-    return refuse(Feed::Proximity, wrong_count(ranges.size()));
+  if (ranges.size() != kRangeSensors) return refuse(Feed::Proximity, wrong_count(ranges.size()));
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     if (std::isnan(ranges[i]))
-      return refuse(Feed::Proximity, proximity_sensor(i) + " is missing: its value is NaN");
+      return refuse(Feed::Proximity,
+                    proximity_sensor(i, settings_.rays_deg) + " is missing: its value is NaN");
     if (std::isfinite(ranges[i]) && ranges[i] < 0)
-      return refuse(Feed::Proximity, proximity_sensor(i) + " has the negative range " +
-                                         std::to_string(ranges[i]) + " m");
+      return refuse(Feed::Proximity, proximity_sensor(i, settings_.rays_deg) +
+                                         " has the negative range " + std::to_string(ranges[i]) +
+                                         " m");
   }
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     double& distance = sensed_.proximity_m[i];
@@ -104,7 +107,7 @@ void Feeds::hear(const NeighboursMessage& message) {
 }
 
 void Feeds::hear(const LightMessage& message) {
-  if (message.lux.size() != kProximitySensors)
+  if (message.lux.size() != kRangeSensors)
     return refuse(Feed::Light, wrong_count(message.lux.size()));
   for (const double lux : message.lux) {
     if (!(lux >= 0)) return refuse(Feed::Light, "a light sensor is missing: NaN or negative lux");

@@ -9,13 +9,15 @@
 #include "robot/runtime/scan.h"
 #include "robot/runtime/sensed.h"
 #include "robot/transport/messages.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith {
 
 /// How to interpret the measurements of a robot's drivers.
 struct FeedSettings {
-  double proximity_range_m = kProximityRange_m;  ///< farther obstacles are ignored
-  double color_scale = 255;                      ///< the driver's value for full colour
+  double proximity_range_m = kProximityRange_m;     ///< farther obstacles are ignored
+  RingAngles rays_deg = ProximityRing::rvr_ring();  ///< directions of the sensors
+  double color_scale = 255;                         ///< the driver's value for full colour
   std::vector<Rgb> labels;    ///< the floor's colours (`nearest_label`); empty: no labeler
   double lidar_turn_rad = 0;  ///< angle of the lidar's zero from the robot's head,
                               ///< counter-clockwise

@@ -7,8 +7,11 @@
 
 #include "base/assert.h"
 #include "base/hash.h"
+#include "robot/runtime/robot_kind.h"
 #include "sim/control/flavour_file.h"
 #include "sim/control/used_senses.h"
+#include "sim/engine/fitting.h"
+#include "sim/files/robot_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -71,6 +74,8 @@ RobotNode::RobotNode(NodeSettings settings, const Controller& controller, const 
     : settings_(std::move(settings)),
       controller_(&controller),
       flavour_(&flavour),
+      fitted_(fitted(flavour, settings_.kind)),
+      own_robot_(own_robot_text(settings_.kind)),
       machine_text_(print_controller(controller, flavour)),
       machine_digest_(digest_of(machine_text_, flavour)),
       needed_(feeds_of(senses_used_by(controller, flavour))),
@@ -205,6 +210,16 @@ void RobotNode::arm(const Order& order, const Now& now) {
     refused_ = "the run " + run_ + " is in progress";
     return;
   }
+  const auto kind = parse_own_robot(order.own_robot);
+  if (!kind) {
+    refused_ = "the order's `own_robot` is not a robot that this program can read: " +
+               kind.error().message;
+    return;
+  }
+  if (auto why = other_robot("the order", *kind, settings_.kind)) {
+    refused_ = std::move(*why);
+    return;
+  }
   if (runs_.contains(order.run)) {
     refused_ = "the robot has already had a run " + order.run + "; a new run needs a new name";
     return;
@@ -247,7 +262,7 @@ void RobotNode::begin(std::string run, std::int64_t seed, std::int64_t cycles, c
   start_unix_s_ = start.unix_s;
   clock_offset_s_.reset();
   clock_.emplace(start.clock, settings_.period, cycles);
-  control_.emplace(*controller_, *flavour_, control_stream(seed, settings_.robot_index));
+  control_.emplace(*controller_, fitted_, control_stream(seed, settings_.robot_index));
   cycle_ = stepped_ = held_ = skipped_ = late_readings_ = cut_ = 0;
   held_for_ = {};
   by_driver_ = by_operator_ = {};
@@ -589,6 +604,7 @@ NodeState RobotNode::state(const Now& now) const {
                   .cycle = cycle_,
                   .machine_digest = machine_digest_,
                   .flavour = flavour_->name,
+                  .own_robot = own_robot_,
                   .turn_clock = std::string(name_of(flavour_->exploration.turn_clock)),
                   .seed = is_on() ? seed_ : settings_.seed,
                   .robot_index = settings_.robot_index,
@@ -632,6 +648,7 @@ LogHead RobotNode::head() const {
                .machine_digest = machine_digest_,
                .flavour = flavour_->name,
                .own_flavour = own_flavour_text(*flavour_),
+               .own_robot = own_robot_,
                .turn_clock = std::string(name_of(flavour_->exploration.turn_clock)),
                .seed = seed_,
                .lock_step = lock_step_,

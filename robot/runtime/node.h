@@ -16,12 +16,14 @@
 #include "robot/runtime/run_record.h"
 #include "robot/transport/messages.h"
 #include "sim/control/control_software.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith {
 
 /// The settings of a node, in addition to its controller.
 struct NodeSettings {
   std::string robot = "rvr1";
+  Robot kind = rvr();     ///< no_node_drives has no objection
   int robot_index = 0;    ///< of the random stream, from 0
   std::int64_t seed = 1;  ///< if the order to start has none
   Duration period = std::chrono::milliseconds(100);
@@ -158,6 +160,8 @@ class RobotNode {
   NodeSettings settings_;
   const Controller* controller_;
   const Flavour* flavour_;
+  Flavour fitted_;         ///< the flavour for this kind of robot
+  std::string own_robot_;  ///< the kind as a text; empty for an RVR
   std::string machine_text_;
   std::string machine_digest_;
   PerFeed<bool> needed_;

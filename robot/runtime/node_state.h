@@ -36,6 +36,7 @@ struct NodeState {
   std::int64_t cycle = 0;
   std::string machine_digest;
   std::string flavour;
+  std::string own_robot;  ///< as in an order
   std::string turn_clock;
   std::int64_t seed = 0;
   std::int64_t robot_index = 0;
@@ -72,6 +73,7 @@ void visit_state_fields(AnyState& state, Field& field) {
   field("cycle", state.cycle);
   field("machine", state.machine_digest);
   field("flavour", state.flavour);
+  field("own_robot", state.own_robot, !state.own_robot.empty());
   field("turn_clock", state.turn_clock);
   field("seed", state.seed);
   field("robot_index", state.robot_index);

@@ -41,11 +41,13 @@ Expected<Order> parse_order(std::string_view text) {
   visit_order_fields(order, reader);
   if (!reader.error().empty()) return bad_input(reader.error());
   if (order.id.empty()) return bad_input("an order needs an `id`");
-  // The robots and the seed of an order must not be guessed.
+  // The robots and the seed of an order, and the kind of robot, must not be guessed.
   if (json.contains("robots") &&
       (!json["robots"].is_array() || json["robots"].size() != order.robots.size()))
     return bad_input("`robots` is a list of names");
   if (json.contains("seed") && !order.seed) return bad_input("`seed` is an integer");
+  if (json.contains("own_robot") && !json["own_robot"].is_string())
+    return bad_input("`own_robot` is a text, a robot as TOML");
   order.unknown_keys = reader.unknown_keys();
   order.valid_s = std::clamp(order.valid_s, 0.0, 10.0);
   if (order.kind == Order::Kind::Start) {

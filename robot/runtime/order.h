@@ -32,6 +32,8 @@ struct Order {
   double at_unix_s = 0;              ///< of Start: the agreed instant
   double seconds = 0;                ///< of Start: duration of the run
   std::optional<std::int64_t> seed;  ///< of Start: replaces the nodes' own seeds
+  /// Of Start: the robot that the run is for, as the text of `own_robot_text`; empty: RVRs.
+  std::string own_robot;
   /// Of Start: each robot's wall clock minus the operator's, as measured.
   std::map<std::string, double> clock_offsets_s;
 
@@ -59,6 +61,7 @@ void visit_order_fields(AnyOrder& order, Field& field) {
   field("at_unix_s", order.at_unix_s, starts);
   field("seconds", order.seconds, starts);
   field("seed", order.seed, starts && order.seed);
+  field("own_robot", order.own_robot, starts && !order.own_robot.empty());
   field("clock_offsets_s", order.clock_offsets_s, starts);
 }
 

@@ -9,6 +9,8 @@
 #include "robot/runtime/node.h"
 #include "sim/control/control_software.h"
 #include "sim/control/flavour_file.h"
+#include "sim/engine/fitting.h"
+#include "sim/files/robot_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -60,7 +62,10 @@ Expected<LogReplay> replay_log(const RunRecord& record) {
   if (!controller) return Unexpected(controller.error());
   if (const auto complaint = complaint_about_running(*controller, *flavour))
     return bad_input(*complaint);
-  ControlSoftware control(*controller, *flavour,
+  const auto kind = parse_own_robot(head.own_robot);
+  if (!kind) return bad_input("`own_robot` is not a robot: " + kind.error().message);
+  const Flavour on_robot = fitted(*flavour, *kind);
+  ControlSoftware control(*controller, on_robot,
                           control_stream(head.seed, static_cast<int>(head.robot_index)));
   LogReplay replay;
   std::int64_t before = 0;

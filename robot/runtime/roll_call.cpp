@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "base/assert.h"
+#include "robot/runtime/robot_kind.h"
+#include "sim/files/robot_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -30,6 +32,24 @@ void compare(const RolledRobot& robot, const RolledRobot& first, const char* wha
   if (its == of_first) return;
   complaints.push_back(
       fmt::format("{}: {} {}, and {} has {}", robot.name, what, its, first.name, of_first));
+}
+
+/// Compares a robot's kind with the wanted one, or with that of the first robot.
+void compare_kinds(const RolledRobot& robot, const RolledRobot& first, const Robot* wanted,
+                   std::vector<std::string>& complaints) {
+  const auto kind = parse_own_robot(robot.state->own_robot);
+  const auto of_first = parse_own_robot(first.state->own_robot);
+  if (!kind) {
+    complaints.push_back(
+        robot.name +
+        ": its state has an `own_robot` that this program cannot read: " + kind.error().message);
+  } else if (wanted != nullptr) {
+    if (const auto why = other_robot("the run", *wanted, *kind))
+      complaints.push_back(robot.name + ": " + *why);
+  } else if (of_first && other_robot("", *kind, *of_first)) {
+    compare(robot, first, "drives the robot", kind->name,
+            of_first->name == kind->name ? "one of other values" : of_first->name, complaints);
+  }
 }
 
 }  // namespace
@@ -75,7 +95,7 @@ bool RollCall::is_complete() const {
                              [](const RolledRobot& robot) { return robot.echoes >= kEchoes; });
 }
 
-std::vector<std::string> RollCall::complaints(TimePoint now) const {
+std::vector<std::string> RollCall::complaints(TimePoint now, const Robot* kind) const {
   std::vector<std::string> complaints;
   const RolledRobot* first = nullptr;
   for (const RolledRobot& robot : robots_) {
@@ -107,6 +127,7 @@ std::vector<std::string> RollCall::complaints(TimePoint now) const {
     compare(robot, *first, "has the machine", state.machine_digest, other.machine_digest,
             complaints);
     compare(robot, *first, "has the flavour", state.flavour, other.flavour, complaints);
+    compare_kinds(robot, *first, kind, complaints);
     compare(robot, *first, "has the turn clock", state.turn_clock, other.turn_clock, complaints);
     compare(robot, *first, "has the seed", std::to_string(state.seed), std::to_string(other.seed),
             complaints);
@@ -187,7 +208,7 @@ std::vector<Order> RunStarter::tick(const Now& now) {
       if (auto echo = roll_.tick(now)) orders.push_back(std::move(*echo));
       const bool late = now.clock - called_ > duration_of(settings_.patience_s);
       if (!roll_.is_complete() && !late) break;
-      complaints_ = roll_.complaints(now.clock);
+      complaints_ = roll_.complaints(now.clock, &settings_.kind);
       if (!complaints_.empty()) {
         if (late) stage_ = Stage::Over;  // until then robots may become ready
         break;
@@ -196,6 +217,7 @@ std::vector<Order> RunStarter::tick(const Now& now) {
       start.at_unix_s = now.unix_s + settings_.lead_s;
       start.seconds = settings_.seconds;
       start.seed = settings_.seed;
+      start.own_robot = own_robot_text(settings_.kind);
       for (const RolledRobot& robot : roll_.robots()) {
         SWARMSMITH_ASSERT(robot.echoes > 0, "a run starts when all clocks are measured");
         start.clock_offsets_s[robot.name] = robot.offset_s;

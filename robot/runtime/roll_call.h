@@ -8,6 +8,7 @@
 #include "robot/runtime/node.h"
 #include "robot/runtime/node_state.h"
 #include "robot/runtime/order.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith {
 
@@ -40,8 +41,9 @@ class RollCall {
   bool is_complete() const;
 
   const std::vector<RolledRobot>& robots() const { return robots_; }
-  /// The problems that keep the swarm from starting, one per line.
-  std::vector<std::string> complaints(TimePoint now) const;
+  /// The problems that keep the swarm from starting, one per line; also those of nodes that do not
+  /// drive this kind of robot, if one is given.
+  std::vector<std::string> complaints(TimePoint now, const Robot* kind = nullptr) const;
 
  private:
   std::vector<RolledRobot> robots_;
@@ -58,6 +60,7 @@ class RunStarter {
     std::string run;
     double seconds = 120;
     std::optional<std::int64_t> seed;
+    Robot kind = rvr();     ///< the robot that the run is for
     double lead_s = 2;      ///< time from the order to the agreed instant
     double patience_s = 5;  ///< time limit for the answers of all robots
   };

@@ -88,6 +88,7 @@ struct LogHead {
   std::string flavour;
   std::string own_flavour;  ///< the complete flavour as the text of a file; empty for a built-in
                             ///< one
+  std::string own_robot;    ///< the robot as in an order; empty for an RVR
   std::string turn_clock;
   std::int64_t seed = 1;
   bool lock_step = false;  ///< stepped by a simulated world instead of the clock

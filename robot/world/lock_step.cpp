@@ -166,10 +166,11 @@ Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions&
   constexpr Duration kTell = std::chrono::seconds(3);
   const TimePoint begin = SystemClock().now();
   TimePoint told = begin;
+  std::vector<bool> known(end.robots(), !options.objection);
   while (true) {
     std::string missing;
     for (std::size_t i = 0; i < end.robots(); ++i) {
-      if (!end.connected(i)) missing += (missing.empty() ? "" : ", ") + end.name(i);
+      if (!end.connected(i) || !known[i]) missing += (missing.empty() ? "" : ", ") + end.name(i);
     }
     if (missing.empty()) return {};
     const TimePoint now = SystemClock().now();
@@ -183,9 +184,14 @@ Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions&
       told = now;
       options.tell("waiting for " + missing);
     }
-    // States and commands from before the start are ignored.
+    // Commands from before the start are ignored.
     const auto received = end.receive(now + kLook);
     if (!received) continue;
+    const auto* state = std::get_if<StateMessage>(&received->message);
+    if (state != nullptr && !known[received->robot]) {
+      known[received->robot] = true;
+      if (auto why = options.objection(*state)) return bad_input(*why, end.name(received->robot));
+    }
     if (const auto* trouble = std::get_if<TroubleMessage>(&received->message)) {
       if (trouble->ended) return unexpected(ErrorKind::Unavailable, trouble->text);
       options.tell(trouble->text);

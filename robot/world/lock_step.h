@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 
 #include "base/expected.h"
 #include "robot/transport/ends.h"
@@ -29,11 +31,15 @@ struct WorldOptions {
   Duration patience = std::chrono::seconds(5);
   /// Called with remarks for the user during a run.
   std::function<void(const std::string&)> tell = [](const std::string&) {};
+  /// Called with the first state of each robot's node, before a run: the reason why it cannot take
+  /// part. Without it, the world does not wait for states.
+  std::function<std::optional<std::string>(const StateMessage&)> objection;
   /// Whether the world must end.
   std::function<bool()> is_over = [] { return false; };
 };
 
-/// Waits until every robot's node is connected. Unavailable, with the names of the missing robots,
+/// Waits until every robot's node is connected, and has sent its state. BadInput: there is an
+/// objection to it. Unavailable, with the names of the missing robots,
 /// after `most`; missing robots are also reported every few seconds.
 Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions& options);
 

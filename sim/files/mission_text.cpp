@@ -68,7 +68,7 @@ std::string placement_text(const Placement& placement) {
 /// completely.
 void add_robot(const Mission& mission, const std::string& prefix, std::vector<Section>& sections) {
   const Robot& robot = mission.robot;
-  if (robot == rvr_with(robot.body.outline)) {
+  if (is_rvr(robot)) {
     sections.front().lines.push_back({"robot", "{ " + outline_text(robot.body.outline) + " }"});
     return;
   }

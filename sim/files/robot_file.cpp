@@ -24,6 +24,8 @@
 namespace swarmsmith {
 namespace {
 
+constexpr std::string_view kTable = "robot";  ///< of a robot in a text of its own
+
 constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kRobotFiles = {
     {{"rvr", kRvrRobot}, {"epuck", kEpuckRobot}}};
 
@@ -279,9 +281,30 @@ Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, 
 }
 
 void check_with_outline(TableReader& table, const Robot& robot) {
-  if (robot == rvr_with(robot.body.outline)) return;
+  if (is_rvr(robot)) return;
   check_robot(table, robot);
   check_measures(table, robot);
+}
+
+std::string own_robot_text(const Robot& robot) {
+  return is_rvr(robot) ? "" : text_of(robot_sections(robot, std::string(kTable)));
+}
+
+Expected<Robot> parse_own_robot(std::string_view text) {
+  if (text.empty()) return rvr();
+  const auto document = parse_document(text, "");
+  if (!document) return Unexpected(document.error());
+  Complaints complaints("");
+  TableReader root(*document, "", complaints);
+  Robot robot;
+  if (auto table = root.table(kTable)) {
+    robot = read_robot_table(*table, nullptr, rvr());
+  } else if (complaints.empty()) {
+    root.complain(kTable, "a robot is a table `[robot]`");
+  }
+  root.finish();
+  if (!complaints.empty()) return Unexpected(complaints.take().front());
+  return robot;
 }
 
 std::vector<Section> robot_sections(const Robot& robot, const std::string& header) {

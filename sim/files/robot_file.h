@@ -40,6 +40,11 @@ Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, 
 /// RVR keeps its devices with any outline.
 void check_with_outline(TableReader& table, const Robot& robot);
 
+/// The text that carries a robot in messages and logs: all its fields, or nothing for an RVR, with
+/// any outline. An error names no file.
+std::string own_robot_text(const Robot& robot);
+Expected<Robot> parse_own_robot(std::string_view text);
+
 /// All fields as lines; `header` is the name of the table that holds them, such as "mission.robot".
 std::vector<Section> robot_sections(const Robot& robot, const std::string& header);
 

@@ -18,4 +18,8 @@ Robot rvr_with(Outline outline) {
   return robot;
 }
 
+bool is_rvr(const Robot& robot) {
+  return robot == rvr_with(robot.body.outline);
+}
+
 }  // namespace swarmsmith

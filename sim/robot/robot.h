@@ -138,4 +138,7 @@ Robot rvr();
 /// The same robot with a body of another outline.
 Robot rvr_with(Outline outline);
 
+/// Whether it is the RVR, with any outline.
+bool is_rvr(const Robot& robot);
+
 }  // namespace swarmsmith

@@ -62,8 +62,25 @@ class LockStep(ProgramTest):
         return rows
 
 
+    def refuses_nodes_of_another_robot(self, way):
+        """`of`: the robot of the nodes; `wanted`: the mission's."""
+        rover, rovers = robots.mission_of_rovers(self, 1)
+        rvrs = mission_of(self.folder, "aggregation", 1)
+        machine = machine_file(self, WATERMELON)
+        for kind, mission, wanted, of in (("rvr", rovers, "rover", "rvr"), (rover, rvrs, "rvr", "rover")):
+            swarm = way()
+            swarm.node(self, 1, machine, "--flavour", "watermelon", "--lock-step", "senses", "--kind", kind)
+            world = swarm.program(self, "world", "--mission", mission, "--seeds", "1", "--lock-step")
+            self.assertEqual(world.end(), 1, world.said())
+            self.assertIn(f"rvr1: the mission is for the robot `{wanted}`, and the node drives the robot `{of}`; use one for "
+                          f"`{of}`, or a node of `{wanted}` (`swarmsmith robot run --kind`)", world.said())
+
+
 @unittest.skipIf(NO_ROS, NO_ROS or "")
 class OverRos(LockStep):
+    def test_nodes_of_another_robot_are_refused(self):
+        self.refuses_nodes_of_another_robot(lambda: Master(self, self.folder))
+
     def test_missions_flavours_and_profiles(self):
         master = Master(self, self.folder)
         for mission, flavour, profile in (("aggregation", "watermelon", "rvr"),
@@ -148,6 +165,36 @@ class OverRos(LockStep):
 class OverZeroMq(LockStep):
     def test_the_same_bits(self):
         self.compared(ZeroMq(), mission_of(self.folder, "aggregation"), "watermelon", "rvr", "1-2")
+
+    def test_the_same_bits_of_a_robot_of_ones_own(self):
+        rover, mission = robots.mission_of_rovers(self)
+        self.compared(ZeroMq(), mission, "watermelon", "rvr", "1-2", node_words=("--kind", rover))
+
+    def test_nodes_of_another_robot_are_refused(self):
+        self.refuses_nodes_of_another_robot(ZeroMq)
+
+    def test_machines_and_robots_that_a_node_does_not_drive_are_refused(self):
+        machine = self.folder / "best.fsm"
+        head = 'format = 1\nflavour = "{}"\n[[mission]]\nname = "theirs"\npreset = "aggregation"\nrobot = "{}"'
+        for flavour, robot in (("watermelon", "rvr"), ("chocolate-epuck", "epuck")):
+            lines = head.format(flavour, robot).splitlines()
+            machine.write_text("".join(f"#: {line}\n" for line in lines) + "--nstates 1 --s0 1\n")
+            node = robots.Process(self, [robots.ROBOT, "run", "--robot", "1", "--machine", machine, "--transport", "zeromq",
+                                         "--bind", "tcp://127.0.0.1:*", "--lock-step", "senses"])
+            if robot == "rvr":
+                node.wait_for("rvr1: robot rvr, ")
+            else:
+                self.assertEqual(node.end(), 2, node.said())
+                self.assertIn("the machine is for the robot `epuck`, and the node drives the robot `rvr`; use one for `rvr`",
+                              node.said())
+        rover, _ = robots.mission_of_rovers(self)
+        for words, why in ((("--kind", "epuck"), "the robot `epuck` has proximity sensors that give strengths"),
+                           (("--kind", rover, "--color-scale", "255", "--wheels", "twist"), "and the robot `rover` has another one"),
+                           (("--kind", rover, "--color-scale", "255"), "let its driver send `neighbours`")):
+            node = robots.Process(self, [robots.ROBOT, "run", "--robot", "1", "--machine", WATERMELON, "--flavour", "watermelon",
+                                         "--transport", "zeromq", *words])
+            self.assertEqual(node.end(), 2, node.said())
+            self.assertIn(why, node.said())
 
     def test_the_same_bits_with_keys(self):
         keys = self.folder / "keys"

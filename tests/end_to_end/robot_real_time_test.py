@@ -43,13 +43,13 @@ class RealTime(ProgramTest):
         for number in (1, 2, 3):
             self.start_node(number, *words)
 
-    def start_world(self, *words):
-        return self.swarm.program(self, "world", "--mission", "aggregation", "--real-time", "--neighbours", self.neighbours,
+    def start_world(self, *words, mission="aggregation"):
+        return self.swarm.program(self, "world", "--mission", mission, "--real-time", "--neighbours", self.neighbours,
                                   *words)
 
-    def start_run(self, seconds, run="run07", names="1-3", patience=20):
+    def start_run(self, seconds, run="run07", names="1-3", patience=20, words=()):
         return self.swarm.program(self, "start", "--run", run, "--robots", names, "--seconds", seconds, "--in", "0.7",
-                                  "--json", "--patience", patience, "--write", self.folder / f"{run}.toml", key="operator")
+                                  "--json", "--patience", patience, "--write", self.folder / f"{run}.toml", *words, key="operator")
 
     def answer(self, run):
         return json.loads(run.out[-1])
@@ -125,6 +125,27 @@ class RealTime(ProgramTest):
         self.assert_replays()
         self.assertIsNone(world.process.poll())
 
+    def run_is_for_one_robot(self):
+        rover, mission = robots.mission_of_rovers(self)
+        self.start_nodes("--kind", rover)
+        self.start_world(mission=mission)
+        refused = self.start_run(2, patience=1)
+        self.assertEqual(refused.end(), 1, refused.said())
+        self.assertIn("rvr2: the run is for the robot `rvr`, and the node drives the robot `rover`; use one for `rover`, or a "
+                      "node of `rvr` (`swarmsmith robot run --kind`)", refused.said())
+        self.assertFalse((self.folder / "run07.toml").exists())
+        for words, why in ((("--mission", mission, "--kind", "rvr"), "the mission is for the robot `rover`"),
+                           (("--mission", "rowers.toml"), "or say it with --kind")):
+            refused = self.start_run(2, words=words)
+            self.assertEqual(refused.end(), 2, refused.said())
+            self.assertIn(why, refused.said())
+        for run, words in (("run07", ("--mission", "rovers.toml")), ("run08", ("--kind", rover))):
+            done = self.start_run(2, run=run, words=words)
+            self.assertEqual(done.end(), 0, done.said())
+        self.assertTrue(any(speed(row) > 0 for row in self.rows("rvr1")))
+        self.assertRegex((self.folder / "run07.rvr1.toml").read_text(), r'(?m)^own_robot = "\\n\[robot\]\\nname = \\"rover')
+        self.assert_replays(6)
+
 
 @robots.by_the_clock
 class OverZeroMq(RealTime):
@@ -136,6 +157,9 @@ class OverZeroMq(RealTime):
 
     def test_all_others_stop_when_a_node_is_killed(self):
         self.node_is_killed()
+
+    def test_a_run_is_for_one_robot(self):
+        self.run_is_for_one_robot()
 
     def test_a_sensor_that_is_silent_for_good_ends_the_run_of_all(self):
         self.start_nodes()
@@ -291,6 +315,9 @@ class OverRos(RealTime):
 
     def test_all_others_stop_when_a_node_is_killed(self):
         self.node_is_killed()
+
+    def test_a_run_is_for_one_robot(self):
+        self.run_is_for_one_robot()
 
 
 if __name__ == "__main__":

@@ -40,6 +40,21 @@ def machine_file(test, text):
     return file
 
 
+#: A robot that nodes can drive: wider and slower than the RVR, its sensors in another order.
+ROVER = ("format = 1\n[drive]\ntrack = 0.2\nmax_speed = 0.25\n[proximity]\n"
+         "rays = [0, 45, 90, 135, 180, -135, -90, -45]\n")
+
+
+def mission_of_rovers(test, count=3, seconds=20):
+    """The files of the rover, and of a mission with it."""
+    robot = test.folder / "rover.toml"
+    robot.write_text(ROVER)
+    mission = test.folder / "rovers.toml"
+    mission.write_text(f'format = 1\nname = "rovers"\npreset = "aggregation"\nrobots = {count}\n'
+                       f'duration = "{seconds} s"\nrobot = "rover.toml"\n')
+    return robot, mission
+
+
 class Standstill(threading.Thread):
     """The longest time for which this machine did not let a sleeping thread go on, seconds."""
 

@@ -64,7 +64,7 @@ bool has_squares_alone(const Arena& arena, const Robot& robot) {
 
 bool has_discs_alone(const Arena& arena, const Robot& robot) {
   return std::holds_alternative<CircleOutline>(robot.body.outline) && arena.objects.empty() &&
-         robot != rvr_with(robot.body.outline);
+         !is_rvr(robot);
 }
 
 namespace {

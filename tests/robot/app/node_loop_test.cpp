@@ -6,12 +6,15 @@
 #include <thread>
 
 #include "robot/runtime/replay.h"
+#include "robot/runtime/robot_kind.h"
 #include "robot/transport/in_process.h"
 #include "robot/world/lock_step.h"
 #include "robot/zeromq/zmq_ends.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
+#include "sim/files/robot_file.h"
+#include "tests/robot/runtime/rover.h"
 #include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
@@ -263,6 +266,28 @@ TEST(NodeLoop, OverAWireRefusesOrdersThatAreOldRepeatedOrForeign) {
   outside.send(obeyed);  // played back after the run
   EXPECT_TRUE(outside.until([](const NodeState& state) { return !state.refused.empty(); }));
   EXPECT_EQ(outside.state.phase, Phase::Stopped);
+}
+
+TEST(NodeLoop, OverAWireRefusesOrdersForAnotherRobot) {
+  const TemporaryFolder folder;
+  for (const auto& [driven, wanted] :
+       {std::pair(rvr(), rover()), std::pair(rover(), rvr()), std::pair(rover(), rover())}) {
+    auto server = value_of(zmq_robot_end("rvr1", {.end = {.sensors = {.neighbours = true}}}));
+    RunningNode node(*server.end, {.logs = folder.path()}, {.kind = driven});
+    const EndOptions options = {.sensors = {.neighbours = true}};
+    const auto world = zmq_world_end({{"rvr1", server.endpoint}}, {.end = options});
+    const auto operating = zmq_operator_end({{"rvr1", server.endpoint}}, {.end = options});
+    ASSERT_TRUE(world && operating);
+    Outside outside(**world, **operating);
+    ASSERT_TRUE(outside.until_phase(Phase::Ready));
+    Order order = outside.order(Order::Kind::Start);
+    order.own_robot = own_robot_text(wanted);
+    outside.send(order);
+    ASSERT_TRUE(outside.until([&](const NodeState& told) { return told.order == order.id; }));
+    EXPECT_EQ(outside.state.refused, other_robot("the order", wanted, driven).value_or(""));
+    EXPECT_EQ(outside.state.own_robot, own_robot_text(driven));
+    EXPECT_EQ(outside.state.phase == Phase::Armed, driven == wanted);
+  }
 }
 
 TEST(NodeLoop, InLockStepGivesTheBitsOfTheSimulatorAndLogsThatReplay) {

@@ -1,7 +1,15 @@
+#include <fstream>
+
 #include "robot/app/commands.h"
 #include "robot/app/machine_word.h"
 #include "robot/app/robot_names.h"
+#include "robot/runtime/robot_kind.h"
+#include "sim/files/machine_file.h"
+#include "sim/files/mission_file.h"
+#include "sim/files/robot_file.h"
+#include "tests/robot/runtime/rover.h"
 #include "tests/support/checks.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
@@ -29,12 +37,44 @@ TEST(RosWords, AreOptionsOfOurs) {
 }
 
 TEST(MachineWord, NeedsAFlavour) {
-  EXPECT_THAT(complaint_of(robot_machine("--nstates 1 --s0 1", "", {})),
+  EXPECT_THAT(complaint_of(robot_machine("--nstates 1 --s0 1", "", {}, rvr())),
               HasSubstr("give --flavour"));
-  const auto with = value_of(robot_machine("--nstates 1 --s0 1", "watermelon", TurnClock::Seconds));
+  const auto with =
+      value_of(robot_machine("--nstates 1 --s0 1", "watermelon", TurnClock::Seconds, rvr()));
   EXPECT_EQ(with.flavour.exploration.turn_clock, TurnClock::Seconds);
-  EXPECT_FALSE(robot_machine("--nstates 9 --s0 1", "watermelon", {}));
-  EXPECT_FALSE(robot_machine("/no/such/file.fsm", "watermelon", {}));
+  EXPECT_FALSE(robot_machine("--nstates 9 --s0 1", "watermelon", {}, rvr()));
+  EXPECT_FALSE(robot_machine("/no/such/file.fsm", "watermelon", {}, rvr()));
+}
+
+TEST(MachineWord, IsForTheRobotOfTheNode) {
+  const TemporaryFolder folder;
+  const auto complaint = [&](const std::string& mission_robot, const Robot& kind) {
+    MachineHead head{.flavour = "watermelon"};
+    if (!mission_robot.empty()) {
+      head.mission = MissionEntry{value_of(built_in_mission("aggregation"))};
+      head.mission->mission.name = "mine";
+      head.mission->mission.robot =
+          mission_robot == "rover" ? rover() : find_robot(mission_robot, {}).value();
+    }
+    std::ofstream(folder / "best.fsm") << head_text(head) << "--nstates 1 --s0 1\n";
+    const auto machine = robot_machine((folder / "best.fsm").string(), "", {}, kind);
+    return machine ? "" : to_string(machine.error());
+  };
+  EXPECT_EQ(complaint("", rvr()), "");
+  EXPECT_EQ(complaint("rvr", rvr()), "");
+  EXPECT_EQ(complaint("rover", rover()), "");
+  EXPECT_EQ(complaint("", rover()), "") << "its flavour fits";
+  EXPECT_THAT(complaint("rover", rvr()),
+              HasSubstr(other_robot("the machine", rover(), rvr()).value()));
+  EXPECT_THAT(complaint("rvr", rover()),
+              HasSubstr(other_robot("the machine", rvr(), rover()).value()));
+  EXPECT_THAT(complaint("epuck", rvr()), HasSubstr("the machine is for the robot `epuck`"));
+}
+
+TEST(Kinds, AreRobotsThatNodesDrive) {
+  EXPECT_EQ(value_of(find_kind("rvr")), rvr());
+  EXPECT_THAT(complaint_of(find_kind("epuck")), HasSubstr("give strengths"));
+  EXPECT_THAT(complaint_of(find_kind("rower")), HasSubstr("there is no robot `rower`"));
 }
 
 }  // namespace

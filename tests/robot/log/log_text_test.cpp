@@ -105,6 +105,13 @@ TEST(LogText, GivesBackTheHead) {
 }
 
 /// As version 0.1.0 wrote them: logs of runs are kept for years.
+TEST(LogText, HasTheRobotIfItIsNotTheRvr) {
+  LogHead head = example_head();
+  EXPECT_EQ(log_head_text(head).find("own_robot"), std::string::npos);
+  head.own_robot = "[robot]\nname = \"rover\"\n";
+  EXPECT_EQ(parse_log_head(log_head_text(head), "x").value(), head);
+}
+
 TEST(LogText, HasItsBytes) {
   EXPECT_EQ(
       log_columns(),

@@ -2,7 +2,11 @@
 
 #include <cmath>
 
+#include "robot/runtime/replay.h"
+#include "robot/runtime/robot_kind.h"
+#include "sim/files/robot_file.h"
 #include "tests/robot/runtime/bench_robot.h"
+#include "tests/robot/runtime/rover.h"
 #include "tests/support/checks.h"
 
 namespace swarmsmith {
@@ -134,6 +138,63 @@ TEST(RobotNode, RefusesStartsThatAreOldRepeatedForOthersOrAtTheWrongTime) {
   order.run = "run09";
   robot.node.hear(order, robot.now());
   EXPECT_THAT(robot.state().refused, HasSubstr("the run run07 is in progress"));
+}
+
+TEST(RobotNode, RefusesStartsForAnotherRobot) {
+  BenchRobot an_rvr;
+  an_rvr.cycles(2);
+  Order order = an_rvr.order(Order::Kind::Start);
+  order.own_robot = own_robot_text(rover());
+  an_rvr.node.hear(order, an_rvr.now());
+  EXPECT_EQ(an_rvr.state().phase, Phase::Ready);
+  EXPECT_EQ(an_rvr.state().refused, other_robot("the order", rover(), rvr()));
+  order = an_rvr.order(Order::Kind::Start);
+  order.own_robot = "[robot]\nname = \"rover\"\nwings = 2\n";
+  an_rvr.node.hear(order, an_rvr.now());
+  EXPECT_EQ(an_rvr.state().phase, Phase::Ready);
+  EXPECT_THAT(an_rvr.state().refused,
+              AllOf(HasSubstr("the order's `own_robot` is not a robot"), HasSubstr("wings")));
+  an_rvr.node.hear(an_rvr.order(Order::Kind::Start), an_rvr.now());
+  EXPECT_EQ(an_rvr.state().phase, Phase::Armed);
+  EXPECT_EQ(an_rvr.node.head().own_robot, "");
+
+  BenchRobot a_rover({.kind = rover()});
+  a_rover.cycles(2);
+  a_rover.node.hear(a_rover.order(Order::Kind::Start), a_rover.now());
+  EXPECT_EQ(a_rover.state().phase, Phase::Ready);
+  EXPECT_EQ(a_rover.state().refused, other_robot("the order", rvr(), rover()))
+      << "an order that names no robot is for RVRs";
+  order = a_rover.order(Order::Kind::Start);
+  order.own_robot = own_robot_text(rover());
+  a_rover.node.hear(order, a_rover.now());
+  EXPECT_EQ(a_rover.state().phase, Phase::Armed) << a_rover.state().refused;
+  EXPECT_EQ(a_rover.node.head().own_robot, order.own_robot);
+}
+
+TEST(RobotNode, IsStoppedByOrdersForAnyRobot) {
+  BenchRobot robot;
+  robot.start();
+  Order order = robot.order(Order::Kind::Stop);
+  order.own_robot = own_robot_text(rover());
+  robot.node.hear(order, robot.now());
+  EXPECT_EQ(robot.state().phase, Phase::Stopped);
+}
+
+TEST(RobotNode, StepsTheFlavourAsItRunsOnItsRobot) {
+  BenchRobot robot({.kind = rover(), .max_mps = 1}, "--nstates 1 --s0 0 --rwm0 1");
+  robot.cycles(2);
+  Order order = robot.order(Order::Kind::Start);
+  order.own_robot = own_robot_text(rover());
+  robot.node.hear(order, robot.now());
+  robot.cycles(12);
+  EXPECT_EQ(robot.speed(), rover().drive.max_speed_mps);
+  const RunRecord record{robot.node.head(), robot.rows};
+  const auto replayed = value_of(replay_log(record));
+  EXPECT_GT(replayed.stepped, 0);
+  EXPECT_FALSE(replayed.difference) << replayed.difference->what;
+  RunRecord of_rvr = record;
+  of_rvr.head.own_robot.clear();
+  EXPECT_TRUE(value_of(replay_log(of_rvr)).difference);
 }
 
 TEST(RobotNode, StopsByOrderOfItsRunAndOfNoOther) {

@@ -3,6 +3,8 @@
 #include <limits>
 
 #include "robot/runtime/node_state.h"
+#include "sim/files/robot_file.h"
+#include "tests/robot/runtime/rover.h"
 #include "tests/support/checks.h"
 
 namespace swarmsmith {
@@ -40,6 +42,17 @@ TEST(Orders, ReadBackFromTheirText) {
   }
 }
 
+TEST(Orders, CarryARobotThatIsNotTheRvr) {
+  Order start = start_order();
+  start.own_robot = own_robot_text(rvr_with(CircleOutline{0.1}));
+  EXPECT_EQ(order_text(start), order_text(start_order())) << "the same bytes for RVRs";
+  start.own_robot = own_robot_text(rover());
+  EXPECT_THAT(order_text(start), HasSubstr(R"(,"own_robot":"\n[robot]\nname = \"rover\"\n)"));
+  const Order read = value_of(parse_order(order_text(start)));
+  EXPECT_EQ(read, start);
+  EXPECT_EQ(value_of(parse_own_robot(read.own_robot)), rover());
+}
+
 TEST(Orders, ThatCannotBeReadAreRefusedWithAReason) {
   for (const char* text :
        {"", "{", "[]", "7", "{}", R"({"order":"start"})", R"({"order":"jump","id":"a"})",
@@ -47,6 +60,7 @@ TEST(Orders, ThatCannotBeReadAreRefusedWithAReason) {
         R"({"order":"start","id":"a","run":"x","seconds":-3})",
         R"({"order":"start","id":"a","run":"x","seconds":1e300})",
         R"({"order":"start","id":"a","run":"x","seconds":3,"seed":"1"})",
+        R"({"order":"start","id":"a","run":"x","seconds":3,"own_robot":7})",
         R"({"order":"stop","id":"a","robots":"rvr1"})", R"({"order":"stop","id":"a","robots":[1]})",
         R"({"order":"stop","id":"a","robots":null})", "\xff\xfe"}) {
     const auto order = parse_order(text);
@@ -148,6 +162,9 @@ TEST(NodeStates, ReadBackFromTheirText) {
       R"("skipped":1,"battery":0.9,"verdict":"DEGRADED","reasons":["a \"quoted\" reason"],)"
       R"("not_ready":["x","y"],"log_trouble":"full","log_open":true,"order":"o","refused":"r",)"
       R"("start_unix_s":1795000000.5,"clock_s":123.456,"unix_s":1795000000.123456})");
+  EXPECT_EQ(parse_state(state_text(state)).value(), state);
+  state.own_robot = "[robot]\n";
+  EXPECT_THAT(state_text(state), HasSubstr(R"("flavour":"watermelon","own_robot":"[robot]\n",)"));
   EXPECT_EQ(parse_state(state_text(state)).value(), state);
   EXPECT_EQ(parse_state(state_text({})).value(), NodeState{});
   EXPECT_FALSE(parse_state("{}"));

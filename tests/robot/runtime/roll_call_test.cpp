@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <memory>
 
+#include "robot/runtime/robot_kind.h"
 #include "tests/robot/runtime/bench_robot.h"
+#include "tests/robot/runtime/rover.h"
 #include "tests/support/checks.h"
 
 namespace swarmsmith {
@@ -16,7 +18,8 @@ class Bench {
  public:
   explicit Bench(std::vector<NodeSettings> settings = {{}, {}, {}},
                  const std::vector<std::string>& machines = {kCuriousMachine, kCuriousMachine,
-                                                             kCuriousMachine}) {
+                                                             kCuriousMachine},
+                 const Robot& kind = rvr()) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < settings.size(); ++i) {
       names.push_back("rvr" + std::to_string(i + 1));
@@ -27,8 +30,8 @@ class Bench {
       hears.push_back(true);
       speaks.push_back(true);
     }
-    starter = std::make_unique<RunStarter>(RunStarter::Settings{.run = "run07", .seconds = 5},
-                                           names, "op", now());
+    starter = std::make_unique<RunStarter>(
+        RunStarter::Settings{.run = "run07", .seconds = 5, .kind = kind}, names, "op", now());
   }
 
   Now now() const { return {clock, robots[0]->unix_s()}; }
@@ -138,6 +141,22 @@ TEST(RunStarter, RefusesASwarmThatIsNotOne) {
   EXPECT_THAT(silent.starter->complaints(),
               ElementsAre(HasSubstr("rvr2: does not answer"), "rvr3: ground: no message yet"));
   EXPECT_EQ(silent.starter->verdict(), RunVerdict::Invalid);
+}
+
+TEST(RunStarter, StartsOnlyNodesOfItsRobot) {
+  const NodeSettings of_rover{.kind = rover()};
+  Bench mixed({{}, of_rover, {}});
+  mixed.run(12);
+  EXPECT_THAT(mixed.starter->complaints(),
+              ElementsAre("rvr2: " + other_robot("the run", rvr(), rover()).value()));
+  EXPECT_EQ(mixed.starter->start().unix_s, 0) << "nothing was ordered";
+  EXPECT_THAT(mixed.starter->roll().complaints(mixed.clock),
+              Contains("rvr2: drives the robot rover, and rvr1 has rvr"));
+  Bench rovers({of_rover, of_rover, of_rover}, {kCuriousMachine, kCuriousMachine, kCuriousMachine},
+               rover());
+  rovers.run(20);
+  EXPECT_THAT(rovers.starter->complaints(), ElementsAre());
+  EXPECT_EQ(rovers.starter->verdict(), RunVerdict::Valid);
 }
 
 /// Its states come, orders do not reach it.

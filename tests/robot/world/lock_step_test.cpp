@@ -196,6 +196,25 @@ TEST(LockStep, ACommandThatIsNoNumberEndsTheRun) {
   EXPECT_THAT(result.error().message, HasSubstr("robot 0"));
 }
 
+TEST(LockStep, ANodeWithAnObjectionIsRefusedByName) {
+  const Scene scene("argos3");
+  InProcessSwarm swarm(names());
+  const Nodes nodes(swarm, scene.controller, watermelon(), Pace::Senses, 1);
+  WorldOptions options;
+  int states = 0;
+  options.objection = [&states](const StateMessage& state) -> std::optional<std::string> {
+    ++states;
+    if (state.text.find("\"rvr2\"") == std::string::npos) return std::nullopt;
+    return "it is another robot";
+  };
+  const auto there = wait_for_robots(swarm.world(), std::chrono::seconds(20), options);
+  ASSERT_FALSE(there.has_value());
+  EXPECT_EQ(to_string(there.error()), "rvr2: it is another robot");
+  options.objection = [](const StateMessage&) { return std::optional<std::string>(); };
+  EXPECT_TRUE(wait_for_robots(swarm.world(), std::chrono::seconds(20), options));
+  EXPECT_GT(states, 0);
+}
+
 TEST(LockStep, AnotherNumberOfRobotsIsRefused) {
   const Scene scene("argos3");
   InProcessSwarm swarm({"rvr1"});

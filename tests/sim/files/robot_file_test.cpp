@@ -32,6 +32,19 @@ TEST(RobotFile, TheBuiltInRvrIsTheTable) {
   EXPECT_EQ(built_in("rvr"), rvr());
 }
 
+TEST(RobotFile, ATextOfItsOwnReadsBackAndIsEmptyForTheRvr) {
+  EXPECT_EQ(own_robot_text(rvr()), "");
+  EXPECT_EQ(own_robot_text(rvr_with(CircleOutline{0.1})), "");
+  EXPECT_EQ(value_of(parse_own_robot("")), rvr());
+  const Robot epuck = value_of(find_robot("epuck", {}));
+  EXPECT_EQ(value_of(parse_own_robot(own_robot_text(epuck))), epuck);
+  for (const auto& [text, why] :
+       {std::pair("name = \"x\"", "a robot is a table `[robot]`"), std::pair("[robot", ""),
+        std::pair("robot = 3", "robot"), std::pair("[robot]\nname = \"x\"\nwings = 2", "wings"),
+        std::pair("[robot]\nbase = \"x.toml\"", "begins with a built-in one")})
+    EXPECT_THAT(complaint_of(parse_own_robot(text)), HasSubstr(why)) << text;
+}
+
 TEST(RobotFile, BasesThatFormACircleAreRefused) {
   const TemporaryFolder folder;
   std::ofstream(folder / "a.toml") << "format = 1\nbase = \"b.toml\"\n";
