@@ -152,7 +152,7 @@ TEST(IraceLog, NamesWhatDoesNotFitByTableAndLine) {
 
 TEST(IraceLog, HasNoIdsThatAStoreCannotNumber) {
   Texts texts = by_hand();
-  texts["configurations.csv"] += "1000001,,1\n";
+  texts["configurations.csv"] += "1000001,,1,a\n";
   const auto configurations = read_irace_log(texts);
   ASSERT_FALSE(configurations);
   EXPECT_THAT(lines_of(configurations.error()),
