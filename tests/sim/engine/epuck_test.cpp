@@ -269,7 +269,7 @@ TEST(Epuck, DrivesOutOfAWallInWhichItStarts) {
       parse_controller("--nstates 1 --s0 0 --rwm0 5 --n0 0", flavour).value();
   for (const Point start : {Point{0, -0.1}, Point{0.3125, -0.02}, Point{-0.2, -0.09}}) {
     mission.placement = PlaceAt{{{start.x, start.y, 0.4}}};
-    const Instance instance = value_of(instance_of(mission, 1));
+    const Instance instance = instance_of(mission, 1).value();
     Point last = start;
     double longest_m = 0;
     const Recorder recorder([&](const Snapshot& snapshot) {
