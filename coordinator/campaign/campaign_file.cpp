@@ -212,9 +212,10 @@ std::optional<Error> check_race(const Campaign& campaign, const Method& method) 
 }
 
 /// The error if the budget may be enough for more candidates than a design can have. Each candidate
-/// takes at least one experiment; in a race of simulations, those before the first test.
+/// takes at least one experiment, in a race those before the first test. (A race whose programs
+/// reject most candidates at once may need more; then its design ends with an error.)
 std::optional<Error> check_candidates(const Campaign& campaign, const Method& method) {
-  const bool is_race = words_of(method.search).has_tests && !campaign.target;
+  const bool is_race = words_of(method.search).has_tests;
   const std::int64_t most = kCandidatesPerDesign * (is_race ? campaign.race.first_test : 1);
   if (campaign.race.max_experiments <= most) return std::nullopt;
   return Error{ErrorKind::BadInput,
