@@ -17,8 +17,8 @@ using Values = std::vector<double>;
 
 constexpr std::size_t kLidarRays = 719;
 
-/// One sensor: its name, its columns in a swarm of `robots` such robots, and their values, of which
-/// only as many as there are columns count.
+/// One sensor: its name, its columns in a swarm of `robots` such robots, and their values. Values
+/// beyond the columns are left out.
 struct Device {
   Sensor sensor;
   std::string_view name;
