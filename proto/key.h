@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "base/assert.h"
+
 namespace swarmsmith {
 
 /// An evaluation's key in one integer, for hash maps: 6 bits for the campaign (its index in the
@@ -18,6 +20,8 @@ inline constexpr std::int32_t kMaxPurpose = 7;
 inline constexpr std::int32_t kTestPurpose = 2;
 inline constexpr std::int32_t kEvaluatorPurpose = 5;
 inline constexpr std::int64_t kMostCandidates = 1'000'000;  ///< of a design
+/// The last design whose candidates all have keys.
+inline constexpr std::int64_t kMostDesigns = kMaxCandidate / kMostCandidates;
 
 constexpr bool is_valid_key(std::int64_t candidate, std::int32_t purpose, std::int64_t pair) {
   return candidate > 0 && candidate <= kMaxCandidate && purpose >= 0 && purpose <= kMaxPurpose &&
@@ -27,6 +31,8 @@ constexpr bool is_valid_key(std::int64_t candidate, std::int32_t purpose, std::i
 /// The caller must have checked the key.
 constexpr PackedKey pack(std::int64_t candidate, std::int32_t purpose, std::int64_t pair,
                          std::uint32_t campaign = 0) {
+  SWARMSMITH_ASSERT(is_valid_key(candidate, purpose, pair) && campaign < kMaxCampaigns,
+                    "a key fits into one integer");
   return static_cast<PackedKey>(campaign) << 58U | static_cast<PackedKey>(candidate) << 23U |
          static_cast<PackedKey>(pair) << 3U | static_cast<PackedKey>(purpose);
 }

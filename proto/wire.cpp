@@ -9,6 +9,8 @@
 #include <type_traits>
 
 #include "base/hash.h"
+#include "programs/cost.h"
+#include "proto/key.h"
 #include "proto/task_messages.h"
 
 namespace swarmsmith {
@@ -111,6 +113,10 @@ bool all(const Items& items, IsFine is_fine) {
   return true;
 }
 
+constexpr bool is_from_0_to(std::int64_t number, std::int64_t most) {
+  return number >= 0 && number <= most;
+}
+
 bool is_key(const pb::Key& key) {
   return pack(key).has_value();
 }
@@ -121,6 +127,9 @@ bool is_fine(const pb::Hello& hello) {
          hello.self_test().size() <= kMaxNameBytes && hello.host().size() <= kMaxNameBytes &&
          hello.job().size() <= kMaxNameBytes && hello.cpu().size() <= kMaxNameBytes &&
          hello.secret().size() <= kMaxNameBytes && all(hello.holds(), is_key) &&
+         is_from_0_to(hello.pid(), kMostWhole) &&
+         all(hello.attempts(),
+             [](std::int64_t attempt) { return is_from_0_to(attempt, kMostAttempts); }) &&
          (hello.signatures().empty() || (hello.signatures_size() == hello.holds_size() &&
                                          hello.attempts_size() == hello.holds_size()));
 }
@@ -129,24 +138,38 @@ bool is_result(const pb::Result& result) {
   const bool fits =
       result.failure().size() <= kMaxTextBytes && result.command().size() <= kMaxTextBytes &&
       result.output().size() <= kMaxTextBytes && result.errors().size() <= kMaxTextBytes;
-  return is_key(result.key()) && fits && std::isfinite(result.time()) && result.time() >= 0 &&
-         (!result.failure().empty() || std::isfinite(result.score()));
+  const bool is_score = std::isfinite(result.score()) && !is_too_large(result.score());
+  return is_key(result.key()) && fits && result.time() >= 0 && result.time() <= kLargestCost &&
+         is_from_0_to(result.attempt(), kMostAttempts) &&
+         is_from_0_to(result.wall_us(), 1000 * kLongestTime_ms) &&
+         (!result.failure().empty() || is_score);
 }
 
 bool is_task(const pb::Task& task) {
-  return is_key(task.key()) && task.machine().size() <= kMaxMachineBytes &&
-         std::isfinite(task.bound()) && task.alive_size() <= kMaxItemsPerMessage;
+  return is_key(task.key()) && task.machine().size() <= kMaxMachineBytes && task.bound() >= 0 &&
+         task.bound() <= kLargestCost && is_from_0_to(task.attempt(), kMostAttempts) &&
+         task.instance() >= -kMostWhole && task.instance() <= kMostWhole &&
+         all(task.alive(),
+             [](std::int64_t number) { return number >= 1 && number <= kMostCandidates; });
 }
 
 bool is_fine(const pb::Heartbeat& heartbeat) {
   return all(heartbeat.running(), [](const pb::Running& running) {
-    return is_key(running.key()) && running.elapsed_ms() >= 0;
+    return is_key(running.key()) && is_from_0_to(running.elapsed_ms(), kLongestTime_ms);
   });
 }
 
 bool is_fine(const pb::Command& command) {
   return command.campaign().size() <= kMaxTextBytes && command.who().size() <= kMaxTextBytes &&
-         command.whom().size() <= kMaxTextBytes && command.design() >= 0 && command.budget() >= 0;
+         command.whom().size() <= kMaxTextBytes && is_from_0_to(command.design(), kMostDesigns) &&
+         is_from_0_to(command.budget(), kMostWhole);
+}
+
+/// 0: the worker uses its own time.
+bool is_fine(const pb::Welcome& welcome) {
+  return is_from_0_to(welcome.heartbeat_ms(), kLongestWait_ms) &&
+         is_from_0_to(welcome.dead_after_ms(), kLongestWait_ms) &&
+         is_from_0_to(welcome.resend_ms(), kLongestWait_ms);
 }
 
 bool is_fine(const pb::ToCoordinator& message) {
@@ -186,6 +209,7 @@ bool is_fine(const pb::ToWorker& message) {
     case pb::ToWorker::kHeartbeat:
       return is_fine(message.heartbeat());
     case pb::ToWorker::kWelcome:
+      return is_fine(message.welcome());
     case pb::ToWorker::kScenario:
     case pb::ToWorker::kDrain:
     case pb::ToWorker::kWhoAreYou:

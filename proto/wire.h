@@ -38,6 +38,13 @@ inline std::string clipped_text(const std::string& text, std::size_t most = kMax
   return text.substr(0, most);
 }
 inline constexpr std::uint32_t kMaxSlots = 4096;
+/// Limits of numbers, which keep sums and other units of them within 64 bits.
+inline constexpr std::int64_t kMostWhole = std::int64_t{1} << 53;
+inline constexpr std::int64_t kMostAttempts = 1'000'000'000;
+/// For the time of an evaluation: a hundred years.
+inline constexpr std::int64_t kLongestTime_ms = 3'155'760'000'000;
+/// For the times after which a worker must do something.
+inline constexpr std::int64_t kLongestWait_ms = 3'600'000;
 inline constexpr std::size_t kWorkerIdBytes = 16;
 
 /// Above one of these, senders begin a new message of tasks.

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/plain_text.h"
 #include "storage/internal/copying.h"
 #include "storage/internal/mend_real_runs.h"
 #include "storage/internal/new_file.h"
@@ -218,8 +219,8 @@ Expected<Recovery::Without> SqliteRecovery::drop_words_of(const std::string& key
   without.evaluations = run("DELETE FROM evaluation WHERE worker IN " + theirs +
                             " OR worker <> 0 AND worker NOT IN (SELECT id FROM worker)");
   const std::string reason =
-      fmt::format("`recover --without-key` removed the {} evaluations that its {} workers gave",
-                  without.evaluations, without.workers);
+      fmt::format("`recover --without-key` removed {} that its {} gave",
+                  counted(without.evaluations, "evaluation"), counted(without.workers, "worker"));
   // If the principal is only a key, it means the key at every address.
   run("UPDATE worker SET principal = ?1, state = 'quarantined' WHERE id IN " + theirs);
   const EventRow event =

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/assert.h"
 #include "base/id.h"
 #include "base/measured.h"
 
@@ -91,8 +92,12 @@ struct EvaluationKey {
 /// evaluation on a pair of the race has the id e<candidate * 100,000 + pair>.
 inline constexpr std::int64_t kCandidatesPerDesign = 1'000'000;
 inline constexpr std::int64_t kPairsPerCandidate = 100'000;
+/// Designs of a campaign whose evaluations have keys in a coordinator (proto/key.h).
+inline constexpr std::int64_t kDesignsPerCampaign = 34'359;
 
 constexpr CandidateId candidate_id(DesignId design, std::int64_t number) {
+  SWARMSMITH_ASSERT(design.value >= 1 && number >= 1 && number <= kCandidatesPerDesign,
+                    "a candidate has a number within its design");
   return {(design.value - 1) * kCandidatesPerDesign + number};
 }
 constexpr DesignId design_of(CandidateId id) {

@@ -7,6 +7,7 @@
 #include "analysis/arena/internal/arena_drawing.h"
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 
@@ -33,7 +34,7 @@ std::string draw(const ArenaPanels& panels) {
     tallest = std::max(tallest, drawings[i].height());
     places.push_back({width * static_cast<double>(i % columns), y});
   }
-  Svg svg(panels.width_mm, y + tallest, panels.title, fmt::format("{} runs from above", count));
+  Svg svg(panels.width_mm, y + tallest, panels.title, counted(count, "run") + " from above");
   draw_heading(svg, panels.title, panels.details);
   for (std::size_t i = 0; i < count; ++i)
     svg.add(drawings[i], places[i]);

@@ -15,9 +15,10 @@ namespace {
 using Names = std::vector<std::string>;
 using Values = std::vector<double>;
 
-constexpr int kLidarRays = 719;
+constexpr std::size_t kLidarRays = 719;
 
-/// One sensor: its name, its columns in a swarm of `robots` such robots, and their values.
+/// One sensor: its name, its columns in a swarm of `robots` such robots, and their values. Values
+/// beyond the columns are left out.
 struct Device {
   Sensor sensor;
   std::string_view name;
@@ -25,10 +26,18 @@ struct Device {
   void (*values)(const Readings& readings, Values& values);
 };
 
+std::size_t proximity_sensors(const Robot& robot) {
+  return robot.proximity.rays_deg.size();
+}
+
+std::size_t light_sensors(const Robot& robot) {
+  return robot.light.angles_deg.empty() ? proximity_sensors(robot) : robot.light.angles_deg.size();
+}
+
 /// stem0_unit, stem1_unit, ...
-Names numbered(std::string_view stem, int count, std::string_view unit) {
+Names numbered(std::string_view stem, std::size_t count, std::string_view unit) {
   Names names;
-  for (int i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i)
     names.push_back(std::string(stem).append(std::to_string(i)).append(unit));
   return names;
 }
@@ -96,7 +105,7 @@ const std::array<Device, 12> kDevices = {{
      [](const Readings& r, Values& values) { values.push_back(r.front_light_lux); }},
     {Sensor::LightRing, "light_ring",
      [](int, const Robot& robot) {
-       return numbered("light", kProximitySensors,
+       return numbered("light", light_sensors(robot),
                        kOfLightStrengths.acts_on(robot) ? "_strength" : "_lux");
      },
      [](const Readings& r, Values& values) {
@@ -118,7 +127,7 @@ const std::array<Device, 12> kDevices = {{
      }},
     {Sensor::Proximity, "proximity",
      [](int, const Robot& robot) {
-       return numbered("proximity", kProximitySensors,
+       return numbered("proximity", proximity_sensors(robot),
                        kOfStrengths.acts_on(robot) ? "_strength" : "_m");
      },
      [](const Readings& r, Values& values) {

@@ -18,6 +18,7 @@
 #include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/internal/parameter_table.h"
 #include "analysis/figures/makers.h"
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 
 namespace swarmsmith {
@@ -231,8 +232,8 @@ Expected<Figure> importance_figure(StoreReader& store, const FigureOptions& opti
   const std::map<CandidateId, double> effects = candidate_effects(*pairs);
   ImportancePlot plot{
       .title = title_of(*design),
-      .details = {fmt::format("What the scores of {} depend on, {} candidates",
-                              to_string(design->design), effects.size())},
+      .details = {fmt::format("What the scores of {} depend on, {}", to_string(design->design),
+                              counted(effects.size(), "candidate"))},
       .caption =
           "Bar: part of the variance of the candidates' scores that the value of one parameter "
           "explains, without the effect of the pairs (eta squared; numbers in "

@@ -9,6 +9,7 @@
 #include "analysis/figures/makers.h"
 #include "analysis/figures/race_plot.h"
 #include "analysis/records/race_matrix.h"
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 
 namespace swarmsmith {
@@ -81,9 +82,9 @@ RacePlot::Row drawn(const RaceMatrix& matrix, const RaceMatrix::Row& row) {
 
 std::string description_of(const Race& race) {
   const auto& [steps, rows] = race.matrix;
-  std::string text = fmt::format(
-      "Ranks of {} candidates in {} steps of iteration {} of design {}, best rows first.",
-      rows.size(), steps.size(), race.iteration.iteration, to_string(race.design.design));
+  std::string text = fmt::format("Ranks of {} in {} of iteration {} of design {}, best rows first.",
+                                 counted(rows.size(), "candidate"), counted(steps.size(), "step"),
+                                 race.iteration.iteration, to_string(race.design.design));
   for (const StepRecord& step : steps) {
     if (step.alive_after == step.alive_before) continue;
     text += fmt::format(" Step {} dropped {} and left {}.", step.step,
@@ -141,11 +142,12 @@ Expected<Figure> race_figure(StoreReader& store, const FigureOptions& options) {
                                      race->iteration.iteration, remark));
   // A time budget has no number of experiments.
   plot.details.push_back(race->design.budget > 0
-                             ? fmt::format("Budget: {} of the design's {} experiments",
-                                           race->iteration.budget, race->design.budget)
-                             : fmt::format("Budget: {} experiments", race->iteration.budget));
-  plot.details.push_back(fmt::format("{} candidates, {} alive after step {}", rows.size(),
-                                     steps.back().alive_after, steps.back().step));
+                             ? fmt::format("Budget: {} of the design's {}", race->iteration.budget,
+                                           counted(race->design.budget, "experiment"))
+                             : "Budget: " + counted(race->iteration.budget, "experiment"));
+  plot.details.push_back(fmt::format("{}, {} alive after step {}",
+                                     counted(rows.size(), "candidate"), steps.back().alive_after,
+                                     steps.back().step));
   for (const StepRecord& step : steps)
     plot.steps.push_back({step.step, step.marker, step.alive_before});
   for (const RaceMatrix::Row& row : rows)

@@ -11,6 +11,7 @@
 #include "analysis/figures/internal/parameter_table.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/sampling_plot.h"
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 
 namespace swarmsmith {
@@ -134,8 +135,8 @@ Expected<Figure> sampling_figure(StoreReader& store, const FigureOptions& option
 
   const auto iterations = sampled_iterations(*table);
   SamplingPlot plot{.title = title_of(*design), .width_mm = options.width_mm};
-  plot.details.push_back(fmt::format("Values that {} sampled, {} candidates",
-                                     to_string(design->design), table->candidates.size()));
+  plot.details.push_back(fmt::format("Values that {} sampled, {}", to_string(design->design),
+                                     counted(table->candidates.size(), "candidate")));
   for (const auto& [iteration, place] : iterations)
     plot.iterations.push_back(iteration);
   const bool is_wide = options.width_mm >= kWide;

@@ -60,7 +60,9 @@ std::string summary_of(const std::vector<DesignRecord>& designs) {
       "Question: which machines do best on the {} {}? {} {} each by the {} {}",
       plural(missions.size(), "mission"), fmt::join(missions, ", "), range_of(repetitions),
       plural(is_one ? 1 : 2, "design"), plural(methods.size(), "method"), fmt::join(methods, ", "));
-  if (!budgets.empty()) text += fmt::format(", {} experiments a design", range_of(budgets));
+  if (!budgets.empty())
+    text += fmt::format(", {} {} a design", range_of(budgets),
+                        plural(*std::ranges::max_element(budgets) == 1 ? 1 : 2, "experiment"));
   if (!baselines.empty()) {
     text += fmt::format("; without a race, to compare with: {}", fmt::join(baselines, ", "));
   }

@@ -28,12 +28,6 @@ std::string robot_for(const Flavour& flavour) {
   return rvr().name;
 }
 
-/// The profile with the robot's name; the RVR's profile if there is none.
-std::string profile_for(const Robot& robot) {
-  const std::vector<std::string> names = profile_names();
-  return std::ranges::count(names, robot.name) > 0 ? robot.name : rvr().name;
-}
-
 ExitCode run_assess(const AssessArguments& arguments, Output& output) {
   const auto flavour = find_flavour_or_complain(arguments.flavour, "--flavour", output);
   if (!flavour) return fail(output, ExitCode::Usage, flavour.error());
@@ -41,14 +35,16 @@ ExitCode run_assess(const AssessArguments& arguments, Output& output) {
       arguments.robot.empty() ? robot_for(*flavour) : arguments.robot, "--robot", output);
   if (!robot) return fail(output, ExitCode::Usage, robot.error());
   const auto profile = find_profile_or_complain(
-      arguments.profile.empty() ? profile_for(*robot) : arguments.profile, "--profile", output);
+      arguments.profile.empty() ? usual_profile(*robot) : arguments.profile, "--profile", output);
   if (!profile) return fail(output, ExitCode::Usage, profile.error());
   if (const auto why = misfit(*flavour, *robot))
     return fail(output, ExitCode::Usage,
                 {ErrorKind::BadInput, *why + "; give another --flavour or --robot", "--flavour"});
   if (const auto why = misfit(*profile, *robot))
-    return fail(output, ExitCode::Usage,
-                {ErrorKind::BadInput, *why + "; give another --profile or --robot", "--profile"});
+    return fail(
+        output, ExitCode::Usage,
+        {ErrorKind::BadInput,
+         *why + "; give another --profile" + profiles_text(*robot) + " or --robot", "--profile"});
   if (const auto why = assessment::too_big(*robot))
     return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--robot"});
   const auto runs = [](const ModuleSpec& spec) { return !is_external(spec.module); };
@@ -78,7 +74,7 @@ CommandRun declare_assess(Options& options) {
   options.text("--flavour FLAVOUR|FILE", arguments->flavour,
                "Flavour of the modules (default watermelon)");
   options.text("--profile PROFILE|FILE", arguments->profile,
-               "Simulator profile (default: that of the robot's name, or rvr)");
+               "Simulator profile (default: the robot's, rvr or epuck)");
   options.text("--robot ROBOT|FILE", arguments->robot,
                "The robot (default: the first of `ls robots` that the flavour fits)");
   return [arguments](Output& output) { return run_assess(*arguments, output); };

@@ -63,8 +63,8 @@ void write_text(Output& output, const Campaign& campaign, const CampaignPlan& pl
              << "store        " << campaign.store.string() << "\n"
              << "designs      " << plan.designs << " = " << designs_text(campaign) << "\n"
              << "experiments  " << budget_text(campaign, plan) << ", and " << grouped(plan.tests)
-             << " tests of winners\n"
-             << "evaluation   " << evaluation_text(campaign, plan) << "\n";
+             << (plan.tests == 1 ? " test of a winner\n" : " tests of winners\n") << "evaluation   "
+             << evaluation_text(campaign, plan) << "\n";
   if (plan.evaluation_s) {
     output.out << "time         about " << duration_text(plan.time_s) << " on "
                << counted(plan.slots, "slot") << "\n";

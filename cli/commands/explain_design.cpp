@@ -70,8 +70,9 @@ Expected<Story> read_story(StoreReader& store, DesignRecord design, const Stored
     // The experiments spent by the races add up to the experiments used by the design; their
     // budgets do not.
     if (search == nullptr)
-      part.line += fmt::format(": {} configurations, {} of at most {} experiments",
-                               begun.configurations, part.spent, begun.budget);
+      part.line +=
+          fmt::format(": {}, {} of at most {}", counted(begun.configurations, "configuration"),
+                      part.spent, counted(begun.budget, "experiment"));
     story.parts.push_back(std::move(part));
   }
   if (!story.design.best) return story;
@@ -126,7 +127,7 @@ void write_text(Output& output, const Story& story, const StoredStages& stages) 
              << "state       "
              << (is_searching ? std::string(words_of(*search).at_work) : design.state);
   if (story.search != "none")
-    output.out << ", " << design.used << " of " << design.budget << " experiments used";
+    output.out << ", " << design.used << " of " << counted(design.budget, "experiment") << " used";
   output.out << "\n";
   const std::string stage = search != nullptr ? stages.stage(id, "") : "";
   if (!stage.empty()) output.out << "stage       " << stage << "\n";

@@ -1,3 +1,4 @@
+#include "base/plain_text.h"
 #include "base/shown_text.h"
 #include "base/text/json.h"
 #include "storage/merge.h"
@@ -31,8 +32,8 @@ void write(Output& output, const Merged& merged, const std::string& file) {
     for (const StoredCampaign& campaign : merged.campaigns)
       output.out << as_shown(campaign.row.name, Layout::Escaped) << "  " << campaign.state << "  "
                  << designs_text(campaign) << "\n";
-    output.out << file << ": " << merged.campaigns.size() << " campaigns, digest " << merged.digest
-               << "\n";
+    output.out << file << ": " << counted(merged.campaigns.size(), "campaign") << ", digest "
+               << merged.digest << "\n";
     return;
   }
   const auto campaign_json = [](const StoredCampaign& campaign) {

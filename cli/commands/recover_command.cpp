@@ -1,3 +1,4 @@
+#include "base/plain_text.h"
 #include "base/shown_text.h"
 #include "base/text/json.h"
 #include "storage/recover.h"
@@ -31,13 +32,13 @@ struct Report {
 
 /// "100 whole rows; 3 pages and 2 rows cannot be read".
 std::string table_text(const SalvagedTable& table) {
-  std::string text = std::to_string(table.rows) + " rows";
+  std::string text = counted(table.rows, "row");
   if (table.tree_is_lost) text += " (where the table began is lost: there may have been more)";
   if (table.lost_pages == 0 && table.broken == 0) return text;
   text += "; lost: ";
-  if (table.lost_pages > 0) text += std::to_string(table.lost_pages) + " pages";
+  if (table.lost_pages > 0) text += counted(table.lost_pages, "page");
   if (table.lost_pages > 0 && table.broken > 0) text += ", ";
-  if (table.broken > 0) text += std::to_string(table.broken) + " rows";
+  if (table.broken > 0) text += counted(table.broken, "row");
   return text;
 }
 
@@ -46,14 +47,16 @@ std::string design_text(const Rebuilt::Design& design) {
   if (design.missing == 0) {
     text += "whole, ";
   } else {
-    text += std::to_string(design.missing) + " evaluations are missing after ";
+    text += counted(design.missing, "evaluation is", "evaluations are") + " missing after ";
   }
-  text += std::to_string(design.used) + " experiments";
+  text += counted(design.used, "experiment");
   if (design.ahead > 0) {
-    text += "; " + std::to_string(design.ahead) + " scores of later steps are kept";
+    text += "; " + counted(design.ahead, "score of later steps is", "scores of later steps are") +
+            " kept";
   }
   if (design.unasked > 0) {
-    text += "; " + std::to_string(design.unasked) + " scores of tests are left out";
+    text +=
+        "; " + counted(design.unasked, "score of a test is", "scores of tests are") + " left out";
   }
   return text;
 }
@@ -104,23 +107,29 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
     if (table.rows > 0 || table.lost_pages > 0 || table.broken > 0 || table.tree_is_lost)
       output.out << table.name << ": " << table_text(table) << "\n";
   }
-  if (found.unplaced > 0) output.out << found.unplaced << " rows might belong to several tables\n";
+  if (found.unplaced > 0)
+    output.out << counted(found.unplaced, "row") << " might belong to several tables\n";
   if (found.changed_evaluations > 0) {
-    output.out << found.changed_evaluations
-               << " evaluations were changed after they were written, and were left out\n";
+    output.out << counted(found.changed_evaluations,
+                          "evaluation was changed after it was written, and was",
+                          "evaluations were changed after they were written, and were")
+               << " left out\n";
   }
   if (end.orphans > 0) {
-    output.out << end.orphans << " rows belong to lost data and were left out\n";
+    output.out << counted(end.orphans, "row belongs to lost data and was",
+                          "rows belong to lost data and were")
+               << " left out\n";
   }
   if (report.without) {
-    output.out << report.without->evaluations << " evaluations of " << report.without->workers
-               << " workers were removed\n";
+    output.out << counted(report.without->evaluations, "evaluation") << " of "
+               << counted(report.without->workers, "worker") << " were removed\n";
   }
   for (const Rebuilt::Design& design : report.designs)
     output.out << as_shown(design_text(design), Layout::Escaped) << "\n";
   for (const std::string& complaint : report.complaints)
     output.out << as_shown(complaint, Layout::Escaped) << "\n";
-  output.out << file << ": " << end.evaluations << " evaluations, digest " << end.digest << "\n";
+  output.out << file << ": " << counted(end.evaluations, "evaluation") << ", digest " << end.digest
+             << "\n";
 }
 
 /// Adds the campaign of the file that the user named, if the campaign's row is lost.

@@ -6,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "base/shown_text.h"
 #include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
@@ -58,16 +59,19 @@ void write_text(Output& output, const Verification& found, const std::optional<S
     output.out << as_shown(complaint, Layout::Escaped) << "\n";
   std::string again = "; nothing was evaluated again";
   if (sampled) {
-    again = fmt::format("; {} evaluations were made again (--seed {}), {} with other bits",
-                        sampled->evaluations, sampled->seed, sampled->different.size());
+    again = fmt::format("; {} made again (--seed {}), {} with other bits",
+                        counted(sampled->evaluations, "evaluation was", "evaluations were"),
+                        sampled->seed, sampled->different.size());
   }
   if (!found.complaints.empty()) {
     if (sampled) print_note(output, again.substr(2));
     return;
   }
-  output.out << "clean: " << found.evaluations << " evaluations of " << found.designs
-             << " designs, " << found.finished << " finished; every race was replayed" << again;
-  if (found.real_runs > 0) output.out << "; " << found.real_runs << " real runs scored again";
+  output.out << "clean: " << counted(found.evaluations, "evaluation") << " of "
+             << counted(found.designs, "design") << ", " << found.finished
+             << " finished; every race was replayed" << again;
+  if (found.real_runs > 0)
+    output.out << "; " << counted(found.real_runs, "real run") << " scored again";
   output.out << "\n";
 }
 

@@ -16,7 +16,6 @@
 #include "cli/replay/real_replay.h"
 #include "cli/replay/recording.h"
 #include "cli/replay/stored_runs.h"
-#include "sim/engine/fitting.h"
 #include "sim/files/profile_file.h"
 #include "sim/mission/score.h"
 
@@ -271,15 +270,6 @@ JsonPiece objects_json(const std::vector<Track>& tracks, const Arena& arena) {
     text += (i == 0 ? "" : ",") +
             tracks[i].json().add("outline", outline_json(arena.objects[i].outline)).text();
   return {"[" + text + "]"};
-}
-
-/// The built-in profiles for this robot.
-std::vector<std::string> profiles_of(const Robot& robot) {
-  std::vector<std::string> names = profile_names();
-  std::erase_if(names, [&](const std::string& name) {
-    return misfit(built_in_profile(name).value(), robot).has_value();
-  });
-  return names;
 }
 
 Answer simulated_answer(const Question& question, const StoredRun& run) {

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "base/text/whole_file.h"
 #include "cli/irace/stored_configurations.h"
 #include "irace_core/files/configurations_file.h"
@@ -39,8 +40,9 @@ Expected<Configuration> read_configuration(const IraceSetting& setting, const st
   const auto read = parse_configurations_file({std::move(*text), file.string()}, setup.space);
   if (!read) return Unexpected(read.error());
   if (read->size() == 1) return read->front();
-  return bad_input(fmt::format("has {} configurations, and {} takes one", read->size(), option),
-                   file.string());
+  return bad_input(
+      fmt::format("has {}, and {} takes one", counted(read->size(), "configuration"), option),
+      file.string());
 }
 
 struct RSwitch {

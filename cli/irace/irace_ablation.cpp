@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 #include "base/text/whole_file.h"
 #include "cli/irace/ablation_way.h"
@@ -313,10 +314,10 @@ ExitCode ablate(Output& output, const IraceSettings& settings, const IraceSetup&
   if (begins && !output.quiet) {
     output.out << fmt::format(
         "# {}: Starting ablation from {} to {}\n# Seed: {}\n# Source: {}\n# Target: {}\n"
-        "# {} pairs of instance and seed; columns: number, runs, mean cost, change\n",
+        "# {} of instance and seed; columns: number, runs, mean cost, change\n",
         irace_date(), way->from, way->to, campaign->seed,
         command_line_text(setup.space, way->source), command_line_text(setup.space, way->target),
-        *pairs);
+        counted(*pairs, "pair"));
   }
   if (const auto known = store_of(*campaign)) {
     if (known->finished() && !output.quiet)

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "cli/irace/race_table.h"
 #include "cli/output/progress_text.h"
 #include "irace_core/files/options.h"
@@ -115,7 +116,8 @@ Expected<void> IraceConsole::go_on_from(StoreReader& store) {
   // Rows after the last step are not replayed yet; they come again.
   if (steps.empty()) return {};
   const std::int64_t current = steps.back().iteration;
-  write(fmt::format("# {}: Continuing after {} experiments\n", date_(), steps.back().used));
+  write(fmt::format("# {}: Continuing after {}\n", date_(),
+                    counted(steps.back().used, "experiment")));
   for (const RaceStepRow& step : steps) {
     if (step.iteration == current) {
       if (!in_table_) begin_iteration(iterations[current]);

@@ -175,7 +175,7 @@ std::string iteration_line(const IterationRow& iteration, const DesignProgress& 
     return to_string(iteration.design) + " " + round_line(*progress.options, point_of(progress));
   return to_string(iteration.design) + " iteration " + std::to_string(iteration.number) + "/~" +
          std::to_string(std::max(iteration.of, iteration.number)) + ": " +
-         std::to_string(iteration.configurations) + " configurations (" +
+         counted(iteration.configurations, "configuration") + " (" +
          counted(iteration.elites, "elite") + "), budget " + grouped(iteration.budget) +
          (iteration.soft_restart ? ", soft restart" : "");
 }
@@ -185,11 +185,10 @@ std::string elite_line(const EliteRow& elite, const DesignProgress& progress,
   if (!has_tests(progress)) {
     return to_string(elite.design) + " " + round_name(*progress.options, point_of(progress)) +
            ": best " + to_string(elite.candidate) + ", mean " + mean + " over " +
-           std::to_string(elite.runs) + " runs";
+           counted(elite.runs, "run");
   }
   return to_string(elite.design) + " elite " + std::to_string(elite.rank) + ": " +
-         to_string(elite.candidate) + "  mean " + mean + " over " + std::to_string(elite.runs) +
-         " runs";
+         to_string(elite.candidate) + "  mean " + mean + " over " + counted(elite.runs, "run");
 }
 
 std::string state_line(const DesignStateRow& state, const DesignProgress& progress,
@@ -214,7 +213,8 @@ std::string state_line(const DesignStateRow& state, const DesignProgress& progre
 std::string command_line(const CommandRow& command) {
   std::string text = std::string(word_of(command.kind)) + " " + to_string(command.design);
   if (command.kind == CommandKind::Extend)
-    text += " by " + grouped(command.budget) + " experiments";
+    text +=
+        " by " + grouped(command.budget) + (command.budget == 1 ? " experiment" : " experiments");
   if (!command.who.empty()) text += ", asked by " + command.who;
   // A command's row comes twice: when the user gives it, and when it takes effect.
   if (command.step) text += ": done after step " + std::to_string(*command.step);

@@ -88,13 +88,13 @@ Expected<Mission> mission_of(const EvaluateArguments& arguments, const NamedMach
   return find_mission_or_complain(arguments.mission, "--mission", output);
 }
 
-/// The candidate's own profile, or the one of the flag.
+/// The candidate's own profile, or the one of the flag; without both, that of the mission's robot.
 Expected<Profile> profile_of(const EvaluateArguments& arguments, const NamedMachine& named,
-                             Output& output) {
+                             const Robot& robot, Output& output) {
   if (named.profile && (arguments.profile.empty() || arguments.profile == named.profile->name)) {
     return *named.profile;
   }
-  const std::string word = arguments.profile.empty() ? "rvr" : arguments.profile;
+  const std::string word = arguments.profile.empty() ? usual_profile(robot) : arguments.profile;
   return find_profile_or_complain(word, "--profile", output);
 }
 
@@ -212,18 +212,18 @@ Expected<EvaluationJob> job_of(const NamedMachine& named, const EvaluateArgument
   if (const auto complaint = complaint_about_running(*controller, job.flavour))
     return bad_input(*complaint, where);
   job.controller = std::move(*controller);
-  auto profile = profile_of(arguments, named, output);
-  if (!profile) return Unexpected(profile.error());
-  job.profile = std::move(*profile);
   auto mission = mission_of(arguments, named, output);
   if (!mission) return Unexpected(mission.error());
   job.mission = std::move(*mission);
   const Robot& robot = job.mission.robot;
+  auto profile = profile_of(arguments, named, robot, output);
+  if (!profile) return Unexpected(profile.error());
+  job.profile = std::move(*profile);
   const std::string other = ", or a --mission of another robot";
   if (const auto why = misfit(job.flavour, robot))
     return bad_input(*why + "; give another --flavour" + other, "--flavour");
   if (const auto why = misfit(job.profile, robot))
-    return bad_input(*why + "; give another --profile" + other, "--profile");
+    return bad_input(*why + "; give another --profile" + profiles_text(robot) + other, "--profile");
   const auto* network = std::get_if<Network>(&job.controller);
   if (const auto why = network != nullptr ? misfit(network->inputs, robot) : std::nullopt)
     return bad_input(*why + "; give another machine" + other, where);

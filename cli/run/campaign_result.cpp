@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/statistics/summary.h"
+#include "base/plain_text.h"
 #include "base/shown_text.h"
 #include "base/text/json.h"
 #include "cli/output/progress_text.h"
@@ -89,7 +90,8 @@ void write_text(Output& output, const Rows& rows, const StoredStages& stages, bo
     const bool has_race = text(5) != "0";
     output.out << text(0) << "  " << text(1) << ", " << text(2) << ", repetition " << text(3)
                << ": " << text(4)
-               << (has_race ? " after " + text(5) + " experiments" : ", without a race");
+               << (has_race ? " after " + counted(cells[5].integer(), "experiment")
+                            : ", without a race");
     if (text(4) == "stopped" && !text(12).empty()) output.out << ": " << text(12);
     output.out << "\n";
     if (cells[6].type == Cell::Type::Null) continue;

@@ -6,12 +6,15 @@
 #include <map>
 #include <string>
 
+#include "base/plain_text.h"
 #include "base/text/table_reader.h"
 #include "base/text/whole_file.h"
+#include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/internal/read_method.h"
 #include "coordinator/campaign/internal/read_target.h"
 #include "coordinator/campaign/internal/read_workers.h"
 #include "coordinator/campaign/method_space.h"
+#include "irace_core/search/options.h"
 #include "irace_core/search/start_search.h"
 #include "sim/control/flavour.h"
 #include "sim/engine/fitting.h"
@@ -84,31 +87,38 @@ std::optional<Profile> named_profile(TableReader& table, std::string_view key,
   return std::nullopt;
 }
 
-/// A profile given by name, in a separate file, or in a table.
+/// A profile given by name, in a separate file, or in a table; without a name if none is given.
 Profile read_profile(TableReader& simulator, const std::filesystem::path& folder) {
+  if (!simulator.has("profile")) return {};
   const Node* node = simulator.take("profile");
   if (node != nullptr && std::holds_alternative<Table>(node->value)) {
     auto table = simulator.table("profile");
     return read_profile_table(*table);
   }
-  const std::string name = simulator.text("profile").value_or("rvr");
-  return named_profile(simulator, "profile", name, folder).value_or(Profile{});
+  const auto name = simulator.text("profile");
+  if (!name) return {};
+  return named_profile(simulator, "profile", *name, folder).value_or(Profile{});
 }
 
 /// [simulator]: how evaluations are made.
 void read_simulator(TableReader& root, Campaign& campaign, const std::filesystem::path& folder) {
   static const std::vector<std::string> kKinds = {"builtin", "command"};
   static const std::vector<std::string> kKindsNotYet = {"argos"};
-  campaign.profile = built_in_profile("rvr").value();
   auto table = root.table("simulator");
   if (!table) return;
   if (table->choice("kind", kKinds, kKindsNotYet) == "command") {
     campaign.target = read_target(*table, folder);
-    campaign.profile = {};
   } else {
     campaign.profile = read_profile(*table, folder);
   }
   table->finish();
+}
+
+/// A campaign that names no profile has the one of its first mission's robot.
+void complete_profile(Campaign& campaign) {
+  if (campaign.target || !campaign.profile.name.empty()) return;
+  const Robot robot = campaign.missions.empty() ? rvr() : campaign.missions[0].mission.robot;
+  campaign.profile = built_in_profile(usual_profile(robot)).value();
 }
 
 /// [[mission]]: missions of the simulator, or names and instances for programs.
@@ -202,6 +212,21 @@ std::optional<Error> check_race(const Campaign& campaign, const Method& method) 
   return std::nullopt;
 }
 
+/// The error if the budget may be enough for more candidates than a design can have. Each candidate
+/// takes at least one experiment, in a race those before the first test. (A race whose programs
+/// reject most candidates at once may need more; then its design ends with an error.)
+std::optional<Error> check_candidates(const Campaign& campaign, const Method& method) {
+  const bool is_race = words_of(method.search).has_tests;
+  const std::int64_t most = kCandidatesPerDesign * (is_race ? campaign.race.first_test : 1);
+  if (campaign.race.max_experiments <= most) return std::nullopt;
+  return Error{ErrorKind::BadInput,
+               "with so many experiments it may try more than " +
+                   std::to_string(kCandidatesPerDesign) +
+                   " candidates, the most that a design can have: at most " + std::to_string(most) +
+                   " experiments are possible",
+               "max_experiments"};
+}
+
 /// The inputs of the method's networks.
 NetworkInputs inputs_of(const Method& method, const Flavour& flavour) {
   if (method.baseline.empty() || method.baseline == kRandomMachine) return method.inputs;
@@ -226,7 +251,7 @@ void check_robots(TableReader& root, const Campaign& campaign) {
     }
     const auto complain_of = [&](std::string_view key, const Profile& profile) {
       if (const auto why = misfit(profile, robot))
-        root.complain(key, of + *why + "; choose another profile" + other);
+        root.complain(key, of + *why + "; choose another profile" + profiles_text(robot) + other);
     };
     complain_of("simulator", campaign.profile);
     for (const Profile& profile : campaign.test_profiles)
@@ -262,6 +287,39 @@ std::vector<Error> mixed_names(const Campaign& campaign, const std::string& wher
   return errors;
 }
 
+/// Refuses more designs than evaluations of a coordinator can have as keys.
+void check_designs(TableReader& root, const Campaign& campaign) {
+  std::int64_t designs = 0;
+  for (const Method& method : campaign.methods)
+    designs += repetitions_of(campaign, method);
+  designs *= static_cast<std::int64_t>(campaign.missions.size());
+  if (designs <= kDesignsPerCampaign) return;
+  const std::string why = "the campaign would have " + std::to_string(designs) +
+                          " designs, and at most " + std::to_string(kDesignsPerCampaign) +
+                          " are possible: take fewer repetitions, missions or methods, or make two "
+                          "campaigns";
+  auto table = root.table("campaign");
+  if (table && table->has("repetitions")) {
+    table->complain("repetitions", why);
+  } else {
+    root.complain("mission", why);
+  }
+}
+
+/// Refuses more tests of a winner, those under further profiles included, than have ids.
+void check_tests(TableReader& root, const Campaign& campaign) {
+  const auto profiles = static_cast<std::int64_t>(campaign.test_profiles.size());
+  for (const CampaignMission& mission : campaign.missions) {
+    const std::int64_t tests = mission.test_count * (1 + profiles);
+    if (tests < kPairsPerCandidate) continue;
+    root.complain("tests", "mission \"" + mission.mission.name + "\": a winner would have " +
+                               std::to_string(tests) + " tests under " +
+                               counted(1 + profiles, "profile") + ", and at most " +
+                               std::to_string(kPairsPerCandidate - 1) +
+                               " are possible; make the `count` of its tests smaller");
+  }
+}
+
 /// Checks that need the whole campaign; done last, when there are no other errors.
 void complain_about_races(TableReader& root, Campaign& campaign) {
   auto race = root.table("race");
@@ -276,7 +334,8 @@ std::vector<Error> check_budget(const Campaign& campaign) {
   if (campaign.only_test) return errors;
   for (const Method& method : campaign.methods) {
     if (!method.baseline.empty()) continue;
-    auto error = check_race(campaign, method);
+    auto error = check_candidates(campaign, method);
+    if (!error) error = check_race(campaign, method);
     if (!error) continue;
     const bool known = error->where.empty() || error->where == "max_experiments";
     const std::string where = known ? "" : error->where + ": ";
@@ -297,15 +356,20 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   read_identity(root, campaign, file);
   const std::filesystem::path folder = file.parent_path();
   read_simulator(root, campaign, folder);
-  read_tests(root, folder, campaign);
   read_campaign_missions(root, campaign, folder);
+  complete_profile(campaign);
+  read_tests(root, folder, campaign);
   campaign.methods = read_methods(root, folder, campaign.target.has_value());
   read_race(root, folder, campaign);
   complete_target(campaign);
   read_workers(root, folder, campaign);
   read_dashboard(root, campaign);
   root.finish();
-  if (complaints.empty()) check_robots(root, campaign);
+  if (complaints.empty()) {
+    check_robots(root, campaign);
+    check_designs(root, campaign);
+    check_tests(root, campaign);
+  }
   if (budget) {
     campaign.race.max_experiments = *budget;
     campaign.race.max_time = 0;

@@ -216,7 +216,9 @@ void DesignRunner::test_the_given(std::vector<Task>& tasks) {
   std::vector<std::int64_t> numbers;
   for (const Configuration& configuration : plan_.initial) {
     numbers.push_back(static_cast<std::int64_t>(numbers.size()) + 1);
-    add_candidate({.id = numbers.back(), .configuration = configuration});
+    if (auto added = add_candidate({.id = numbers.back(), .configuration = configuration});
+        !added && !fault_)
+      fault_ = added.error();
   }
   // A baseline machine represents its method, as the winner of a race does.
   if (!plan_.row.flavour.empty()) recorder_.set_best(numbers.front());
@@ -255,6 +257,7 @@ void DesignRunner::want(std::size_t position, const EvaluationKey& key,
   const StoredScore* stored = scores_.stored(key);
   if (stored != nullptr && stored->bound != experiment.bound && !fault_)
     fault_ = recorder_.other_step();
+  if (key.pair >= kPairsPerCandidate && !fault_) fault_ = beyond("pairs", kPairsPerCandidate - 1);
   if (const auto score = scores_.take(key)) {
     batch_.put(position, *score);
     if (key.purpose == Purpose::Race) recorder_.record_use(*score);
@@ -358,8 +361,7 @@ Expected<void> DesignRunner::take_events() {
   bool is_reported = search_->finished();
   for (const RaceEvent& event : search_->take_events()) {
     auto taken = std::visit(Overloaded{[&](const ConfigurationSampled& sampled) -> Expected<void> {
-                                         add_candidate(sampled);
-                                         return {};
+                                         return add_candidate(sampled);
                                        },
                                        [&](const IterationStarted& started) -> Expected<void> {
                                          recorder_.record_iteration(started);
@@ -400,10 +402,22 @@ Expected<void> DesignRunner::take_events() {
   return {};
 }
 
-void DesignRunner::add_candidate(const ConfigurationSampled& sampled) {
+Expected<void> DesignRunner::add_candidate(const ConfigurationSampled& sampled) {
+  if (sampled.id > kCandidatesPerDesign)
+    return Unexpected(beyond("candidates", kCandidatesPerDesign));
   CandidateText text = plan_.describe(sampled.configuration);
   call_texts_[sampled.id] = text.call;
   recorder_.record_candidate(sampled, std::move(text));
+  return {};
+}
+
+/// The error if the budget was enough for more than a store can number.
+Error DesignRunner::beyond(const std::string& what, std::int64_t most) const {
+  return {ErrorKind::BadInput,
+          fmt::format("the design needs more than {} {}, the most that it can have: give a smaller "
+                      "budget",
+                      most, what),
+          to_string(id())};
 }
 
 /// The race's data is kept only for the elites, so that memory does not grow with the budget.

@@ -119,7 +119,8 @@ class DesignRunner {
   // Events of the race.
   Expected<void> tell_race();
   Expected<void> take_events();
-  void add_candidate(const ConfigurationSampled& sampled);
+  Expected<void> add_candidate(const ConfigurationSampled& sampled);
+  Error beyond(const std::string& what, std::int64_t most) const;
   void end_iteration(const IterationEnded& ended);
   /// The race used these runs (configuration, pair), in this order.
   void count_used(const std::vector<std::pair<std::int64_t, std::int64_t>>& used);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/design/campaign_runner.h"
@@ -128,9 +129,9 @@ void compare_finished(DesignAnswer& stored, DesignAnswer& replayed, const std::s
         fmt::format("{}: the store ends with {}, its scores with {}", name, describe(*stored.state),
                     replayed.state ? describe(*replayed.state) : std::string("nothing")));
   } else if (stored.evaluations != replayed.state->used) {
-    complaints.push_back(
-        fmt::format("{}: {} evaluations are stored as used by the race, which used {}", name,
-                    stored.evaluations, replayed.state->used));
+    complaints.push_back(fmt::format(
+        "{}: {} stored as used by the race, which used {}", name,
+        counted(stored.evaluations, "evaluation is", "evaluations are"), replayed.state->used));
   }
 }
 
@@ -182,15 +183,16 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   if (!stored.state) complaints.push_back(name + ": the store has no row of this design");
   if (const std::int64_t later = add_candidates(stored, replayed, finished); later > 0) {
     complaints.push_back(fmt::format(
-        "{}: {} candidates come after a gap: {} evaluations before them are missing, the first is "
-        "{}; run the campaign on this store to evaluate them again",
-        name, later, tasks.size(), tasks.empty() ? "unknown" : to_string(tasks.front().key)));
+        "{}: {} after a gap: {} missing before, the first is {}; run the campaign on this store to "
+        "make up for it",
+        name, counted(later, "candidate comes", "candidates come"),
+        counted(tasks.size(), "evaluation is", "evaluations are"),
+        tasks.empty() ? "unknown" : to_string(tasks.front().key)));
   }
   if (finished && !tasks.empty()) {
-    complaints.push_back(
-        fmt::format("{}: the design is finished, but {} of its evaluations are "
-                    "missing, the first is {}",
-                    name, tasks.size(), to_string(tasks.front().key)));
+    complaints.push_back(fmt::format(
+        "{}: the design is finished, but {} missing, the first is {}", name,
+        counted(tasks.size(), "evaluation is", "evaluations are"), to_string(tasks.front().key)));
   }
   for (const std::string& row : missing_from(replayed.rows, stored.rows)) {
     complaints.push_back(

@@ -8,7 +8,7 @@ namespace swarmsmith {
 
 static_assert(kTestPurpose == static_cast<std::int32_t>(Purpose::Test) &&
                   kEvaluatorPurpose == static_cast<std::int32_t>(Purpose::Evaluator) &&
-                  kMostCandidates == kCandidatesPerDesign,
+                  kMostCandidates == kCandidatesPerDesign && kMostDesigns == kDesignsPerCampaign,
               "workers count as the store does");
 
 /// Packs a store's keys into one word; the key must come from a campaign.

@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "base/text/csv.h"
 #include "programs/cost.h"
+#include "storage/rows.h"
 
 namespace swarmsmith {
 namespace {
@@ -73,6 +74,13 @@ class Reader {
                         "that was useless");
     }
     return cost;
+  }
+  /// Refuses ids that a store cannot number.
+  void limit(const CsvRow& row, const std::string& what, std::int64_t id, std::int64_t most,
+             const std::string& whose) {
+    if (id <= most) return;
+    complain(row, "the " + what + " " + std::to_string(id) + " is beyond " + std::to_string(most) +
+                      ", the most that " + whose);
   }
   void complain(const CsvRow& row, std::string message) {
     errors_.push_back({ErrorKind::BadInput, std::move(message), table_.place(row)});
@@ -151,6 +159,7 @@ void read_configurations(Reader reader, IraceLog& log) {
       reader.complain(row, "ids count up from 1, and a parent comes before its child");
       continue;
     }
+    reader.limit(row, "configuration", *id, kCandidatesPerDesign, "a design can have");
     log.configurations.push_back(
         {*id, *parent, std::vector<std::string>(row.cells.begin() + 2, row.cells.end())});
   }
@@ -162,6 +171,8 @@ void read_pairs(Reader reader, IraceLog& log) {
                          .number = reader.integer(row, "pair"),
                          .instance = reader.integer(row, "instance"),
                          .seed = reader.integer(row, "seed")});
+    reader.limit(row, "pair", log.pairs.back().number, kPairsPerCandidate - 1,
+                 "a candidate can run on");
   }
 }
 

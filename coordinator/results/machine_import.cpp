@@ -118,7 +118,8 @@ class Worlds {
     return std::nullopt;
   }
 
-  /// The parts that are not built in: without a profile, machines are simulated with `rvr`.
+  /// The parts that are not built in: without a profile, machines are simulated with that
+  /// of their robot, `rvr` for the RVR.
   ImportedWorld world() const {
     ImportedWorld world;
     for (const auto& [name, entry] : missions_) {

@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "coordinator/pool/event_text.h"
 #include "coordinator/service/paused_designs.h"
 #include "proto/task_messages.h"
@@ -259,7 +260,7 @@ Expected<std::string> Coordinator::obey(std::uint32_t index, const pb::Command& 
   campaign.sees_no_further = false;
   const std::string name = to_string(row.design);
   if (row.kind == CommandKind::Cancel) return name + " is cancelled";
-  return name + " gets " + std::to_string(row.budget) + " more experiments";
+  return name + " gets " + counted(row.budget, "experiment") + " more";
 }
 
 /// A command to the pool: every store gets the rows, and the answer waits for the first commit.

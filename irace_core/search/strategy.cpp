@@ -1,6 +1,8 @@
 #include "irace_core/search/strategy.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "base/assert.h"
@@ -21,6 +23,7 @@ std::vector<Scored> ranked(std::span<const std::pair<std::int64_t, std::int64_t>
   all.reserve(by_id.size());
   for (auto& [id, scored] : by_id) {
     scored.mean /= static_cast<double>(scored.runs);
+    if (!std::isfinite(scored.mean)) scored.mean = std::numeric_limits<double>::infinity();
     all.push_back(scored);
   }
   std::ranges::stable_sort(all, {}, &Scored::mean);

@@ -74,7 +74,9 @@ void read_flavour(TableReader& root, MachineHead& head) {
   if (is_name_there(root, "flavour")) {
     head.flavour = root.text("flavour").value_or("");
     if (const auto known = find_flavour(head.flavour); !known)
-      root.complain("flavour", known.error().message);
+      root.complain("flavour", known.error().message +
+                                   "; for one of your own, leave this line out and name its file "
+                                   "with --flavour");
     return;
   }
   auto table = root.table("flavour");

@@ -43,25 +43,31 @@ std::vector<SectionLine> score_lines(const ScoreRule& rule) {
   return lines;
 }
 
-/// The inline table `training`.
-std::string placement_text(const Placement& placement) {
+/// The keys of a placement.
+std::string placement_keys(const Placement& placement) {
   return std::visit(
       Overloaded{[](const PlaceInDisc& disc) {
-                   return "{ placement = \"uniform\", x = " + number_text(disc.centre.x) +
+                   return "placement = \"uniform\", x = " + number_text(disc.centre.x) +
                           ", y = " + number_text(disc.centre.y) +
-                          ", radius = " + number_text(disc.radius_m) + " }";
+                          ", radius = " + number_text(disc.radius_m);
                  },
                  [](const PlaceInRectangle& rectangle) {
-                   return "{ placement = \"rectangle\", " + rectangle_text(rectangle.area) + " }";
+                   return "placement = \"rectangle\", " + rectangle_text(rectangle.area);
                  },
-                 [](const PlaceAnywhere&) -> std::string { return "{ placement = \"anywhere\" }"; },
+                 [](const PlaceAnywhere&) -> std::string { return "placement = \"anywhere\""; },
                  [](const PlaceAt& fixed) {
-                   return "{ placement = \"fixed\", poses = [" +
+                   return "placement = \"fixed\", poses = [" +
                           list_of(fixed.poses,
                                   [](const Pose& pose) { return "{ " + pose_text(pose) + " }"; }) +
-                          "] }";
+                          "]";
                  }},
       placement);
+}
+
+/// The inline table `training`; texts of earlier missions have no `ignores_obstacles`.
+std::string placement_text(const Mission& mission) {
+  return "{ " + placement_keys(mission.placement) +
+         (mission.ignores_obstacles ? ", ignores_obstacles = true }" : " }");
 }
 
 /// The RVR is written only as its outline, as in all earlier texts; other robots are written
@@ -99,7 +105,7 @@ std::vector<Section> mission_sections(const MissionEntry& entry) {
   sections.push_back(
       {"[mission.instances]",
        prefix + "instances.",
-       {{"training", placement_text(mission.placement)}, {"test", "{ count = " + count + " }"}}});
+       {{"training", placement_text(mission)}, {"test", "{ count = " + count + " }"}}});
   return sections;
 }
 

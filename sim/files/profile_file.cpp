@@ -1,5 +1,6 @@
 #include "sim/files/profile_file.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -15,8 +16,10 @@
 #include "embedded/kPseudoRealityProfile.h"
 #include "embedded/kRvrProfile.h"
 #include "embedded/kThesisRobotsProfile.h"
+#include "sim/engine/fitting.h"
 #include "sim/files/internal/read_profile.h"
 #include "sim/files/mission_file.h"
+#include "sim/files/robot_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -68,6 +71,27 @@ std::vector<std::string> profile_names() {
   for (const auto& [name, text] : kFiles)
     names.emplace_back(name);
   return names;
+}
+
+std::vector<std::string> profiles_of(const Robot& robot) {
+  std::vector<std::string> names = profile_names();
+  std::erase_if(names, [&](const std::string& name) {
+    return misfit(built_in_profile(name).value(), robot).has_value();
+  });
+  return names;
+}
+
+std::string profiles_text(const Robot& robot) {
+  const std::vector<std::string> names = profiles_of(robot);
+  return names.empty() ? "" : " (" + joined(names) + ")";
+}
+
+std::string usual_profile(const Robot& robot) {
+  const std::vector<std::string> fitting = profiles_of(robot);
+  for (std::string& name : robot_names()) {
+    if (std::ranges::find(fitting, name) != fitting.end()) return std::move(name);
+  }
+  return rvr().name;
 }
 
 std::string_view built_in_profile_text(std::string_view name) {

@@ -10,6 +10,7 @@
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
 #include "sim/engine/profile.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith {
 
@@ -23,6 +24,16 @@ std::vector<std::string> profile_names();
 
 /// An unknown name is an error that lists the known ones.
 Expected<Profile> built_in_profile(std::string_view name);
+
+/// The names of the built-in profiles that fit the robot (`misfit` of sim/engine/fitting.h).
+std::vector<std::string> profiles_of(const Robot& robot);
+
+/// " (argos3, epuck)" with the profiles that fit the robot, for messages; empty if none fits.
+std::string profiles_text(const Robot& robot);
+
+/// The name of the robot's profile where a user names none: the first built-in robot's whose
+/// profile fits; `rvr` if none fits.
+std::string usual_profile(const Robot& robot);
 
 /// The file of a built-in profile, comments included; empty for an unknown name.
 std::string_view built_in_profile_text(std::string_view name);

@@ -244,6 +244,22 @@ RobotOrErrors robot_of_word(const std::string& word, const std::filesystem::path
   return robot;
 }
 
+/// Whether a table has everything of a robot, as in the text of a store.
+bool has_all_devices(const TableReader& table) {
+  return !table.has("base") &&
+         std::ranges::all_of(
+             std::array{"body", "drive", "proximity", "light", "ground", "neighbours"},
+             [&](const char* device) { return table.has(device); });
+}
+
+/// Refuses a user's robot that has the name of a built-in one and other values.
+void check_own_name(TableReader& table, const Robot& robot) {
+  if (built_in_robot_text(robot.name).empty() || robot == built_in_robot(robot.name)) return;
+  table.complain("name", "`" + robot.name +
+                             "` is built in with other values; give the robot another name, or "
+                             "leave `name` out");
+}
+
 }  // namespace
 
 std::vector<std::string> robot_names() {
@@ -271,12 +287,15 @@ RobotOrErrors find_robot(const std::string& word, const std::filesystem::path& f
 
 Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, Robot robot) {
   read_base(table, folder, 0, robot);
+  const std::size_t before = table.complaints();
   if (table.has("name")) {
     robot.name = table.text("name").value_or("");
     check_name(table, robot.name, {});
   }
+  const bool is_whole = has_all_devices(table);
   read_devices(table, robot);
   table.finish();
+  if (table.complaints() == before && table.has("name") && !is_whole) check_own_name(table, robot);
   return robot;
 }
 

@@ -70,8 +70,9 @@ Expected<std::vector<Pose>> given_starts(const Mission& mission, Ground ground) 
 }
 
 /// The arena with all that stands in it before the robots.
-Ground ground_of(const Arena& arena) {
-  Ground ground(arena);
+Ground ground_of(const Mission& mission) {
+  const Arena& arena = mission.arena;
+  Ground ground(arena, mission.ignores_obstacles);
   for (std::size_t i = 0; i < arena.objects.size(); ++i) {
     const MovableObject& object = arena.objects[i];
     ground.add({object.outline, object.start}, "object " + std::to_string(i + 1));
@@ -80,7 +81,7 @@ Ground ground_of(const Arena& arena) {
 }
 
 Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
-  Ground ground = ground_of(mission.arena);
+  Ground ground = ground_of(mission);
   if (std::holds_alternative<PlaceAt>(mission.placement)) {
     return given_starts(mission, std::move(ground));
   }
@@ -142,7 +143,7 @@ Expected<Instance> instance_of(const Mission& mission, std::int64_t seed) {
 }
 
 bool has_overlaps(const Mission& mission, const Instance& instance) {
-  Ground ground = ground_of(mission.arena);
+  Ground ground = ground_of(mission);
   for (const Pose& start : instance.starts) {
     const Footprint body(mission.robot.body.outline, start);
     if (!ground.blocked_by(body).empty()) return true;

@@ -32,7 +32,7 @@ struct ShuffledPatches {
 };
 
 /// The area in which robots may start, with any heading unless stated; starts are always clear of
-/// walls, obstacles, objects and each other.
+/// walls, objects, each other, and obstacles unless the mission ignores them.
 
 /// Uniform in a disc (formula for radius and angle: rvr-automode facts, section 7).
 struct PlaceInDisc {
@@ -72,6 +72,8 @@ struct Mission {
   Robot robot = rvr();  ///< the model of each of them
   int cycles = 1200;    ///< duration in control cycles of 0.1 s
   Placement placement = PlaceInDisc{};
+  /// Whether robots may start inside obstacles, which they leave by driving.
+  bool ignores_obstacles = false;
   ScoreRule rule;
 
   friend bool operator==(const Mission&, const Mission&) = default;

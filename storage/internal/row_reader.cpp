@@ -236,11 +236,11 @@ std::vector<StoredCampaign> read_campaigns(const sqlite::Connection& connection)
                          .designs_before = row.integer(7),
                          .designs = row.integer(8)});
   }
-  // Ids of candidates are computed from ids of designs.
-  constexpr std::int64_t kMostDesigns =
-      std::numeric_limits<std::int64_t>::max() / kCandidatesPerDesign - 1;
+  // Ids of candidates and of evaluations are computed from ids of designs.
+  constexpr std::int64_t kMost =
+      std::numeric_limits<std::int64_t>::max() / kCandidatesPerDesign / kPairsPerCandidate - 1;
   for (const StoredCampaign& campaign : campaigns) {
-    if (campaign.designs_before >= 0 && campaign.designs_before <= kMostDesigns - campaign.designs)
+    if (campaign.designs_before >= 0 && campaign.designs_before <= kMost - campaign.designs)
       continue;
     connection.fail(SQLITE_CORRUPT, fmt::format("the table campaign says that there are {} designs "
                                                 "before those of campaign {}",

@@ -181,6 +181,25 @@ TEST(Evaluate, TakesMissionAndProfileFromFiles) {
   EXPECT_THAT(wrong, HasSubstr("mine.toml:3:1: the file has no key `floor`"));
 }
 
+TEST(Evaluate, TakesTheProfileOfTheMissionsRobot) {
+  const TemporaryFolder folder;
+  write_file(folder / "own.toml", "format = 1\nbase = \"epuck\"\n[drive]\ntrack = 0.06\n");
+  write_file(folder / "mine.toml",
+             "format = 1\npreset = \"aggregation\"\nduration = \"5 s\"\nrobot = \"own.toml\"\n");
+  const auto evaluate = [&](const std::string& profile) {
+    std::vector<std::string> words = {
+        "evaluate",        kExploreText, "--flavour",
+        "chocolate-epuck", "--mission",  (folder / "mine.toml").string(),
+        "--seeds",         "1",          "--json"};
+    if (!profile.empty()) words.insert(words.end(), {"--profile", profile});
+    return words;
+  };
+  EXPECT_EQ(run_well(evaluate("")).out, run_well(evaluate("epuck")).out);
+  EXPECT_THAT(refusal(evaluate("rvr")),
+              HasSubstr("give another --profile (argos3, epuck, epuck-ideal, "
+                        "epuck-pseudo-reality), or a --mission of another robot"));
+}
+
 TEST(Evaluate, TakesAFlavourFromAFile) {
   const TemporaryFolder folder;
   const std::string file = (folder / "mine.toml").string();

@@ -1,4 +1,6 @@
 #include "proto/wire.h"
+#include "programs/cost.h"
+#include "proto/key.h"
 #include "proto/wire.pb.h"
 
 #include <limits>
@@ -150,6 +152,105 @@ TEST(Wire, RefusesScoresThatAreNoNumbersUnlessTheyFailed) {
   pb::ToCoordinator failed = one_result(std::numeric_limits<double>::quiet_NaN());
   failed.mutable_results()->mutable_results(0)->set_failure("no score");
   EXPECT_EQ(fault_of(encode(failed)), "");
+}
+
+/// Each number of a message from a worker, with the least and the most that it may be.
+TEST(Wire, NumbersFromAWorkerHaveLimits) {
+  const auto fault_with = [](const auto& set, auto value) {
+    pb::ToCoordinator message = one_result(1);
+    set(message, value);
+    return fault_of(encode(message));
+  };
+  using Whole = std::int64_t;
+  constexpr Whole kMost = std::numeric_limits<Whole>::max();
+  struct Number {
+    const char* name;
+    void (*set)(pb::ToCoordinator& message, Whole value);
+    Whole least;
+    Whole most;
+  };
+  const auto hello = [](pb::ToCoordinator& message) -> pb::Hello& {
+    message.mutable_hello()->set_worker_id(std::string(kWorkerIdBytes, 'a'));
+    message.mutable_hello()->set_slots(1);
+    return *message.mutable_hello();
+  };
+  static const auto kHello = hello;
+  static const auto kResult = [](pb::ToCoordinator& message) -> pb::Result& {
+    return *message.mutable_results()->mutable_results(0);
+  };
+  const std::vector<Number> numbers = {
+      {"attempt", [](auto& m, Whole v) { kResult(m).set_attempt(v); }, 0, kMostAttempts},
+      {"wall_us", [](auto& m, Whole v) { kResult(m).set_wall_us(v); }, 0, 1000 * kLongestTime_ms},
+      {"pid", [](auto& m, Whole v) { kHello(m).set_pid(v); }, 0, kMostWhole},
+      {"attempts",
+       [](auto& m, Whole v) {
+         kHello(m).add_holds()->set_candidate(1);
+         kHello(m).add_attempts(v);
+         kHello(m).add_signatures(1);
+       },
+       0, kMostAttempts},
+      {"elapsed_ms",
+       [](auto& m, Whole v) {
+         pb::Running& running = *m.mutable_heartbeat()->add_running();
+         running.mutable_key()->set_candidate(1);
+         running.set_elapsed_ms(v);
+       },
+       0, kLongestTime_ms},
+      {"design", [](auto& m, Whole v) { m.mutable_command()->set_design(v); }, 0, kMostDesigns},
+      {"budget", [](auto& m, Whole v) { m.mutable_command()->set_budget(v); }, 0, kMostWhole}};
+  for (const Number& number : numbers) {
+    EXPECT_EQ(fault_with(number.set, number.least), "") << number.name;
+    EXPECT_EQ(fault_with(number.set, number.most), "") << number.name;
+    EXPECT_EQ(fault_with(number.set, number.least - 1), "limits") << number.name;
+    EXPECT_EQ(fault_with(number.set, number.most + 1), "limits") << number.name;
+    EXPECT_EQ(fault_with(number.set, kMost), "limits") << number.name;
+  }
+  const auto score = [](pb::ToCoordinator& m, double v) { kResult(m).set_score(v); };
+  const auto time = [](pb::ToCoordinator& m, double v) { kResult(m).set_time(v); };
+  for (const auto& set : {+score, +time}) {
+    EXPECT_EQ(fault_with(set, kLargestCost), "");
+    EXPECT_EQ(fault_with(set, 2 * kLargestCost), "limits");
+  }
+  EXPECT_EQ(fault_with(score, -2 * kLargestCost), "limits");
+}
+
+TEST(Wire, NumbersFromTheCoordinatorHaveLimits) {
+  const auto fault_with = [](const auto& set, auto value) {
+    Arena arena;
+    pb::ToWorker message = some_tasks(1);
+    set(message, value);
+    const auto decoded = decode_to_worker(encode(message), arena);
+    return decoded ? "" : decoded.error().where;
+  };
+  using Whole = std::int64_t;
+  struct Number {
+    const char* name;
+    void (*set)(pb::ToWorker& message, Whole value);
+    Whole least;
+    Whole most;
+  };
+  static const auto kTask = [](pb::ToWorker& message) -> pb::Task& {
+    return *message.mutable_tasks()->mutable_tasks(0);
+  };
+  const std::vector<Number> numbers = {
+      {"heartbeat_ms", [](auto& m, Whole v) { m.mutable_welcome()->set_heartbeat_ms(v); }, 0,
+       kLongestWait_ms},
+      {"dead_after_ms", [](auto& m, Whole v) { m.mutable_welcome()->set_dead_after_ms(v); }, 0,
+       kLongestWait_ms},
+      {"resend_ms", [](auto& m, Whole v) { m.mutable_welcome()->set_resend_ms(v); }, 0,
+       kLongestWait_ms},
+      {"attempt", [](auto& m, Whole v) { kTask(m).set_attempt(v); }, 0, kMostAttempts},
+      {"instance", [](auto& m, Whole v) { kTask(m).set_instance(v); }, -kMostWhole, kMostWhole},
+      {"alive", [](auto& m, Whole v) { kTask(m).add_alive(v); }, 1, kMostCandidates}};
+  for (const Number& number : numbers) {
+    EXPECT_EQ(fault_with(number.set, number.least), "") << number.name;
+    EXPECT_EQ(fault_with(number.set, number.most), "") << number.name;
+    EXPECT_EQ(fault_with(number.set, number.least - 1), "limits") << number.name;
+    EXPECT_EQ(fault_with(number.set, number.most + 1), "limits") << number.name;
+  }
+  const auto bound = [](pb::ToWorker& m, double v) { kTask(m).set_bound(v); };
+  EXPECT_EQ(fault_with(bound, 0.0), "");
+  EXPECT_EQ(fault_with(bound, -1.0), "limits");
 }
 
 TEST(Wire, RefusesMoreItemsThanAMessageMayHave) {

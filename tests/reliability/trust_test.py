@@ -65,7 +65,7 @@ class CutOut(Trust):
         self.assertRegex(self.said("recover", self.store, "--without-key", "nokey", "-o", honest, code=4), "are: .*liar")
         self.assertFalse(honest.exists())
         self.assertRegex(self.said("recover", self.store, "--without-key", "liar", "-o", honest),
-                         r"[1-9]\d* evaluations of 1 workers were removed")
+                         r"[1-9]\d* evaluations of 1 worker were removed")
         self.store = honest
         self.assertEqual(self.quarantine()[0]["who"], "liar")
         serving = self.serve("--keys", self.keys)

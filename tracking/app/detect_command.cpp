@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/median.h"
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
@@ -117,7 +118,9 @@ Expected<Finds> look(const DetectWords& words, Output& output) {
   finds.notes = (*source)->info().oddities;
   if (finds.tags.empty() && family) finds.notes.push_back(*family);
   if (const std::int64_t damaged = (*source)->damaged_frames(); damaged > 0)
-    finds.notes.push_back(fmt::format("{} of its pictures are damaged and were left out", damaged));
+    finds.notes.push_back(counted(damaged, "of its pictures is damaged and was",
+                                  "of its pictures are damaged and were") +
+                          " left out");
   if ((*source)->info().is_truncated)
     finds.notes.emplace_back(
         "it is shorter than its header says; copy it again, or check how its "

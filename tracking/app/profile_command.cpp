@@ -7,6 +7,7 @@
 #include "base/id.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
+#include "sim/engine/fitting.h"
 #include "sim/files/profile_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/run_analysis.h"
@@ -24,12 +25,13 @@ struct ProfileArguments {
   std::vector<std::string> runs;
   std::string store;
   std::string arena;
-  std::string base = "rvr";
+  std::string base;
   std::string file;
 };
 
 /// The robots of the runs that are used, and the reasons why other runs are not.
 struct Collected {
+  std::vector<Robot> models = {};  ///< of the missions, each once
   std::vector<MeasuredRobot> robots;
   std::vector<std::string> left_out;
 };
@@ -75,6 +77,9 @@ void add_run(const KnownRun& run, Collected& collected) {
     collected.left_out.push_back(run.name + " is INVALID");
     return;
   }
+  const Robot& model = run.run.log.mission.robot;
+  if (std::ranges::find(collected.models, model) == collected.models.end())
+    collected.models.push_back(model);
   const std::size_t before = collected.robots.size();
   std::vector<std::string> without;
   for (const RobotFinding& robot : run.run.findings().robots) {
@@ -172,6 +177,21 @@ std::optional<std::string> same_run(const std::vector<MeasuredRobot>& robots) {
   return std::nullopt;
 }
 
+/// The base, which must fit the robots of all runs.
+Expected<std::string> base_of(const ProfileArguments& arguments, const Collected& collected) {
+  std::string base = arguments.base;
+  if (base.empty())
+    base = usual_profile(collected.models.empty() ? rvr() : collected.models.front());
+  const Profile profile = built_in_profile(base).value();
+  for (const Robot& robot : collected.models) {
+    if (const auto why = misfit(profile, robot))
+      return bad_input(
+          *why + "; give another --base" + profiles_text(robot) + ", or runs of another robot",
+          "--base");
+  }
+  return base;
+}
+
 /// Refuses to overwrite a file, and to write a file whose name no campaign could use.
 std::optional<Error> flaw_of(const std::string& file) {
   if (file.empty() || file == "-") return std::nullopt;
@@ -209,8 +229,10 @@ ExitCode run(const ProfileArguments& arguments, Output& output) {
   }
   if (const auto flaw = same_run(collected.robots))
     return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *flaw, ""});
-  const LabProfile profile = lab_profile(
-      {.robots = collected.robots, .base = arguments.base, .program = track_program_name()});
+  const auto base = base_of(arguments, collected);
+  if (!base) return fail(output, ExitCode::Usage, base.error());
+  const LabProfile profile =
+      lab_profile({.robots = collected.robots, .base = *base, .program = track_program_name()});
   if (!profile.is_measured()) {
     std::string why = "these runs show nothing that a profile needs";
     for (const std::string& run : collected.left_out)
@@ -239,7 +261,7 @@ CommandRun declare_track_profile(Options& options) {
   options.text("--store STORE", arguments->store, "The store (else SWARMSMITH_STORE)");
   options.text("--arena FILE", arguments->arena, "Arena file of the run logs");
   options.choice("--base", arguments->base, profile_names(),
-                 "Built-in profile for everything else");
+                 "Built-in profile for everything else (default: that of the robot)");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "tracking/geometry/tag_family.h"
 #include "tracking/observing/other_family.h"
 #include "tracking/observing/reference_medians.h"
@@ -103,8 +104,9 @@ Expected<void> note_end(const ObservedVideo& video, const std::optional<Error>& 
                                                     info.name)));
   if (broken.has_value()) {
     seen.issues.push_back(truncated(
-        info.name, fmt::format("it broke off after {} frames, at {:.3f} s of its clock: {}", frames,
-                               seen.record.frame_times.back(), to_string(*broken))));
+        info.name,
+        fmt::format("it broke off after {}, at {:.3f} s of its clock: {}", counted(frames, "frame"),
+                    seen.record.frame_times.back(), to_string(*broken))));
     return {};
   }
   const auto wanted = static_cast<double>(info.expected_frames);
@@ -112,10 +114,9 @@ Expected<void> note_end(const ObservedVideo& video, const std::optional<Error>& 
   if (info.is_truncated || wanted - got > std::max(2.0, kCountsMayDiffer * wanted))
     seen.issues.push_back(truncated(
         info.name,
-        fmt::format(
-            "it ends before its own header says, after {} frames, at {:.3f} s of its clock; "
-            "copy it again, or check how its recording ended",
-            frames, seen.record.frame_times.back())));
+        fmt::format("it ends before its own header says, after {}, at {:.3f} s of its clock; "
+                    "copy it again, or check how its recording ended",
+                    counted(frames, "frame"), seen.record.frame_times.back())));
   return video.clock.finish(frames + seen.record.damaged_frames);
 }
 

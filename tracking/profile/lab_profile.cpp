@@ -83,14 +83,14 @@ class Writer {
       names.insert(robot.robot);
     }
     text_ = fmt::format(
-        "# A profile of the simulator that {} measured on {} robot{} ({}) in {} run{} ({}).\n"
+        "# A profile of the simulator that {} measured on {} ({}) in {} ({}).\n"
         "# Numbers in brackets are 95 % intervals of the mean. `spread` is the standard deviation\n"
         "# between robots and runs, beyond what the errors of single runs explain. The\n"
         "# rest is as in the profile `{}`.\n"
         "format = 1\nbase   = {}\n",
-        source_.program, names.size(), names.size() == 1 ? "" : "s",
-        fmt::format("{}", fmt::join(names, ", ")), runs.size(), runs.size() == 1 ? "" : "s",
-        fmt::format("{}", fmt::join(runs, ", ")), source_.base, quoted_text(source_.base));
+        source_.program, counted(names.size(), "robot"), fmt::format("{}", fmt::join(names, ", ")),
+        counted(runs.size(), "run"), fmt::format("{}", fmt::join(runs, ", ")), source_.base,
+        quoted_text(source_.base));
   }
 
   Told collect(const Tell& tell) const {

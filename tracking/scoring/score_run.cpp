@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "tracking/scoring/border.h"
 #include "tracking/scoring/run_patches.h"
 
@@ -35,12 +36,12 @@ std::optional<Error> misfit(const TrackedRun& run, const Mission& mission) {
         "score it by hand");
   }
   if (run.trajectory.robots != mission.robots) {
-    return wrong(fmt::format("the mission has {} robots, and {} were tracked", mission.robots,
-                             run.trajectory.robots));
+    return wrong(fmt::format("the mission has {}, and {} were tracked",
+                             counted(mission.robots, "robot"), run.trajectory.robots));
   }
   if (run.trajectory.instants() != mission.cycles) {
-    return wrong(fmt::format("the mission has {} cycles, and {} were tracked", mission.cycles,
-                             run.trajectory.instants()));
+    return wrong(fmt::format("the mission has {}, and {} were tracked",
+                             counted(mission.cycles, "cycle"), run.trajectory.instants()));
   }
   return std::nullopt;
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 #include "tracking/rig/issue.h"
 #include "tracking/video/internal/iso_time.h"
@@ -236,7 +237,8 @@ Expected<void> FrameClock::finish(std::int64_t frames) const {
   if (source_ != TimeSource::Sidecar || rows <= frames) return {};
   return Unexpected(error_of(
       IssueCode::SidecarMismatch,
-      fmt::format("{} frames in the video, {} in the file of frame times", frames, rows), name_));
+      fmt::format("{} in the video, {} in the file of frame times", counted(frames, "frame"), rows),
+      name_));
 }
 
 }  // namespace swarmsmith

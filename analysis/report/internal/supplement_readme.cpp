@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/plain_text.h"
 #include "base/shown_text.h"
 
 namespace swarmsmith {
@@ -121,9 +122,8 @@ std::string exceptions(StoreReader& store) {
   for (const CommandRow& command : store.commands()) {
     if (!command.step || !is_of_race(command.kind)) continue;
     const std::string design = command.design ? to_string(command.design) : "all designs";
-    const std::string more = command.kind == CommandKind::Extend
-                                 ? fmt::format(" by {} experiments", command.budget)
-                                 : "";
+    const std::string more =
+        command.kind == CommandKind::Extend ? " by " + counted(command.budget, "experiment") : "";
     given.push_back(fmt::format("- `{}` {}{}, after step {} of the race\n", word_of(command.kind),
                                 design, more, *command.step));
   }

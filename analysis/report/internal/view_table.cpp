@@ -6,6 +6,7 @@
 
 #include "analysis/records/names.h"
 #include "analysis/records/records.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -57,7 +58,7 @@ Expected<HtmlTable> view_table(StoreReader& store, const std::string& caption,
         table.rows.push_back(std::move(row));
       });
   if (!end) return Unexpected(end.error());
-  if (rows > most) table.caption += fmt::format(" The first {} of {} rows.", most, rows);
+  if (rows > most) table.caption += fmt::format(" The first {} of {}.", most, counted(rows, "row"));
   return table;
 }
 

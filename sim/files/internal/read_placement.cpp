@@ -53,6 +53,8 @@ void read_placement(TableReader& instances, Mission& mission) {
   if (rule == "rectangle") mission.placement = PlaceInRectangle{read_rectangle(*training, false)};
   if (rule == "anywhere") mission.placement = PlaceAnywhere{};
   if (rule == "fixed") mission.placement = read_poses(*training);
+  mission.ignores_obstacles =
+      training->boolean("ignores_obstacles").value_or(mission.ignores_obstacles);
   training->finish();
 }
 

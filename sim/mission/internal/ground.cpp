@@ -7,7 +7,9 @@
 
 namespace swarmsmith {
 
-Ground::Ground(const Arena& arena) : arena_(&arena), corners_(corners_of(arena)) {
+Ground::Ground(const Arena& arena, bool ignores_obstacles)
+    : arena_(&arena), corners_(corners_of(arena)) {
+  if (ignores_obstacles) return;
   for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
     const Obstacle& obstacle = arena.obstacles[i];
     add({obstacle.outline, obstacle.pose}, "obstacle " + std::to_string(i + 1));

@@ -11,8 +11,8 @@ namespace swarmsmith {
 /// The solids in an arena, used to find room for more.
 class Ground {
  public:
-  /// Begins with the obstacles of the arena.
-  explicit Ground(const Arena& arena);
+  /// Begins with the obstacles of the arena, unless they do not count.
+  explicit Ground(const Arena& arena, bool ignores_obstacles = false);
 
   /// The thing that keeps a solid from being placed there: "a wall", "obstacle 1", "object 2",
   /// "robot 3" (counted from 1); empty when there is room.

@@ -83,6 +83,25 @@ TEST(ReadingColumns, SayWhatTheRobotsSensorsGive) {
   EXPECT_THAT(names(robot), IsSupersetOf({"proximity0_strength", "light7_strength"}));
 }
 
+TEST(ReadingColumns, HaveAsManySensorsAsTheRobot) {
+  Robot robot;
+  robot.proximity.rays_deg = {40, 0, -40};
+  EXPECT_THAT(ReadingColumns(Sensor::Proximity | Sensor::LightRing, 1, robot).names(),
+              ElementsAre("light0_lux", "light1_lux", "light2_lux", "proximity0_m", "proximity1_m",
+                          "proximity2_m"))
+      << "the light sensors are where the rays are";
+  robot.light.angles_deg = {90, -90};
+  const ReadingColumns columns(Sensor::Proximity | Sensor::LightRing, 1, robot);
+  EXPECT_THAT(columns.names(), ElementsAre("light0_lux", "light1_lux", "proximity0_m",
+                                           "proximity1_m", "proximity2_m"));
+  Readings readings;
+  readings.light_lux = {1, 2, 3, 4};
+  readings.proximity_m = {5, 6, 7, 8};
+  std::string line;
+  columns.append_cells(line, &readings);
+  EXPECT_EQ(line, ",1,2,5,6,7");
+}
+
 TEST(ReadingColumns, OfAllSensorsAreDistinctAndFilled) {
   const ReadingColumns columns(Sensors::all(), 1, rvr());
   const std::set<std::string> distinct(columns.names().begin(), columns.names().end());

@@ -71,6 +71,64 @@ TEST(CampaignFile, AnOutlineThatDoesNotFitTheMissionsRobotIsRefused) {
   EXPECT_THAT(with_diameter("0.1"), HasSubstr("rays would start inside of the body"));
 }
 
+TEST(CampaignFile, WithoutAProfileHasThatOfItsRobots) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "own.toml") << "format = 1\nbase = \"epuck\"\n[drive]\ntrack = 0.06\n";
+  const auto profile_of = [&](const std::string& robot) {
+    const FileText file{.mission = "name = \"aggregation\"\nrobot = \"" + robot + "\"\n",
+                        .method = "name = \"m\"\nflavour = \"chocolate" +
+                                  std::string(robot == "rvr" ? "" : "-epuck") + "\"\n",
+                        .race = "max_experiments = 100000\n"};
+    const auto campaign = value_of(parse_campaign(file.text(), folder / "x.toml"));
+    EXPECT_EQ(campaign.profile, built_in_profile(campaign.profile.name).value());
+    EXPECT_EQ(campaign_digest(value_of(parse_campaign(normalised_text(campaign), "stored.toml"))),
+              campaign_digest(campaign));
+    return campaign.profile.name;
+  };
+  EXPECT_EQ(profile_of("rvr"), "rvr");
+  EXPECT_EQ(profile_of("epuck"), "epuck");
+  EXPECT_EQ(profile_of("own.toml"), "epuck");
+}
+
+TEST(CampaignFile, SaysWhichProfilesFitTheRobot) {
+  const FileText file{.mission = "name = \"aggregation\"\nrobot = \"epuck\"\n",
+                      .method = "name = \"m\"\nflavour = \"chocolate-epuck\"\n",
+                      .race = "max_experiments = 100000\n",
+                      .rest = "[simulator]\nprofile = \"rvr\"\n"};
+  EXPECT_THAT(complaints(file.text()),
+              ElementsAre(HasSubstr("choose another profile (argos3, epuck, epuck-ideal, "
+                                    "epuck-pseudo-reality), or a mission of another robot")));
+}
+
+TEST(CampaignFile, HasNoMoreDesignsThanAStoreNumbers) {
+  const auto complaints_of_repetitions = [](const std::string& number) {
+    return complaints(
+        FileText{.campaign = "repetitions = " + number + "\n", .race = "max_experiments = 2000\n"}
+            .text());
+  };
+  EXPECT_THAT(complaints_of_repetitions("34359"), IsEmpty());
+  EXPECT_THAT(complaints_of_repetitions("34360"),
+              ElementsAre("in/x.toml:3:15: the campaign would have 34360 designs, and at most "
+                          "34359 are possible: take fewer repetitions, missions or methods, or "
+                          "make two campaigns"));
+}
+
+TEST(CampaignFile, HasNoMoreExperimentsThanItsCandidatesHaveNumbers) {
+  const auto complaints_of_budget = [](const std::string& number, const std::string& method) {
+    return complaints(FileText{.method = "name = \"m\"\nflavour = \"watermelon\"\n" + method,
+                               .race = "max_experiments = " + number + "\n"}
+                          .text());
+  };
+  EXPECT_THAT(complaints_of_budget("5_000_000", ""), IsEmpty()) << "each races on five pairs";
+  EXPECT_THAT(complaints_of_budget("5_000_001", ""),
+              ElementsAre("in/x.toml:9:19: method \"m\": with so many experiments it may try more "
+                          "than 1000000 candidates, the most that a design can have: at most "
+                          "5000000 experiments are possible"));
+  EXPECT_THAT(complaints_of_budget("1_000_000", "search = \"random\"\n"), IsEmpty());
+  EXPECT_THAT(complaints_of_budget("1_000_001", "search = \"random\"\n"),
+              ElementsAre(HasSubstr("at most 1000000 experiments are possible")));
+}
+
 TEST(CampaignFile, ReadsFurtherProfilesOfTheTests) {
   const FileText plain;
   FileText file;

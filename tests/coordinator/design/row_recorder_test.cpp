@@ -30,6 +30,13 @@ TEST(RowRecorder, GivesRowsFromTheLastStoredStepOn) {
   EXPECT_EQ(std::get<RaceStepRow>(rows.front()).step, 2);
 }
 
+TEST(RowRecorder, HasNoNumberForMoreThanAMillionCandidates) {
+  EXPECT_EQ(candidate_id({2}, kCandidatesPerDesign).value, 2 * kCandidatesPerDesign);
+  EXPECT_DEATH(candidate_id({2}, kCandidatesPerDesign + 1), "within its design");
+  EXPECT_DEATH(candidate_id({2}, 0), "within its design");
+  EXPECT_DEATH(candidate_id({0}, 1), "within its design");
+}
+
 TEST(RowRecorder, FindsAStepThatTheStoreHasOtherwise) {
   RowRecorder recorder({1}, "profile", {11});
   const Error recorded = why_not(recorder.record_step(step(12)));

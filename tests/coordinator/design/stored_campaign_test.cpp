@@ -154,7 +154,8 @@ TEST_F(StoredCampaign, OfACancelledDesignAMissingScoreIsFound) {
           "DELETE FROM evaluation WHERE (candidate, purpose, pair) = (SELECT candidate, purpose,"
           " pair FROM evaluation WHERE purpose = 0 AND iteration > 0 LIMIT 1)");
   const Verification found = *verify(**StoreReader::open(folder_ / "first"));
-  EXPECT_THAT(found.complaints, Contains(HasSubstr("the design is finished, but 1 of its")));
+  EXPECT_THAT(found.complaints,
+              Contains(HasSubstr("the design is finished, but 1 evaluation is missing")));
 }
 
 }  // namespace

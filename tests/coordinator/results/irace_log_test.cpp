@@ -150,6 +150,23 @@ TEST(IraceLog, NamesWhatDoesNotFitByTableAndLine) {
                   "elites.csv: the log has no such table"));
 }
 
+TEST(IraceLog, HasNoIdsThatAStoreCannotNumber) {
+  Texts texts = by_hand();
+  texts["configurations.csv"] += "1000001,,1,a\n";
+  const auto configurations = read_irace_log(texts);
+  ASSERT_FALSE(configurations);
+  EXPECT_THAT(lines_of(configurations.error()),
+              Contains(HasSubstr("the configuration 1000001 is beyond 1000000, the most that a "
+                                 "design can have")));
+  texts = by_hand();
+  texts["pairs.csv"] += "race,100000,1,5\n";
+  const auto pairs = read_irace_log(texts);
+  ASSERT_FALSE(pairs);
+  EXPECT_THAT(lines_of(pairs.error()),
+              Contains(HasSubstr("the pair 100000 is beyond 99999, the most that a candidate can "
+                                 "run on")));
+}
+
 TEST(IraceLog, OfTheExampleHasItsNineHundredAndEightyOneRuns) {
   const auto log = value_of(read_irace_log(example()));
   EXPECT_EQ(log.version, "3.5.6863679");

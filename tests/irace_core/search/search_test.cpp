@@ -34,6 +34,20 @@ std::vector<std::uint64_t> digests(const Played& played) {
   return all;
 }
 
+TEST(Ranked, PutsWhatWasRejectedLastWhateverItsCosts) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<std::pair<std::int64_t, std::int64_t>> runs = {{1, 1}, {1, 2}, {2, 1}, {2, 2},
+                                                                   {3, 1}, {3, 2}, {4, 1}, {4, 2}};
+  const std::vector<double> costs = {kInfinity, -kInfinity, -kInfinity, 1, 5, 5, 4, 2};
+  const auto order = search::ranked(runs, costs);
+  std::vector<std::int64_t> ids;
+  for (const search::Scored& one : order)
+    ids.push_back(one.id);
+  EXPECT_EQ(ids, (std::vector<std::int64_t>{4, 3, 1, 2}));
+  EXPECT_EQ(order[2].mean, kInfinity);
+  EXPECT_EQ(order[3].mean, kInfinity);
+}
+
 TEST_P(EverySearch, GivesTheSameAnswerTwiceAndAnotherForAnotherSeed) {
   const auto once = play(*started(weights_space(5), options_of(GetParam()), 6000, 7), noisy_sphere);
   const auto twice =

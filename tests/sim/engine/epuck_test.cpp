@@ -259,6 +259,35 @@ TEST(Epuck, DrivesInASwarmAsTheOriginalDoesForSixSeconds) {
   EXPECT_LT(farthest_off("rt-aac", "traj-rt-aac-hc03-nonoise-20robots.csv", 60, false), 1e-3);
 }
 
+/// As in the original, where a mission's walls come after the robots (epuck facts, section 6.1).
+TEST(Epuck, DrivesOutOfAWallInWhichItStarts) {
+  Mission mission = golden_mission("oc-sca");
+  EXPECT_TRUE(mission.ignores_obstacles);
+  mission.robots = 1;
+  const Flavour& flavour = **find_flavour("chocolate-epuck");
+  const Controller machine =
+      parse_controller("--nstates 1 --s0 0 --rwm0 5 --n0 0", flavour).value();
+  for (const Point start : {Point{0, -0.1}, Point{0.3125, -0.02}, Point{-0.2, -0.09}}) {
+    mission.placement = PlaceAt{{{start.x, start.y, 0.4}}};
+    const Instance instance = instance_of(mission, 1).value();
+    Point last = start;
+    double longest_m = 0;
+    const Recorder recorder([&](const Snapshot& snapshot) {
+      const Point here = snapshot.robots[0].pose.position();
+      longest_m = std::max(longest_m, hypot(here.x - last.x, here.y - last.y));
+      last = here;
+    });
+    simulate({.controller = machine,
+              .flavour = flavour,
+              .profile = ideal(),
+              .mission = mission,
+              .instance = instance},
+             recorder);
+    EXPECT_GT(hypot(last.x - start.x, last.y - start.y), 0.1) << start.x << " " << start.y;
+    EXPECT_LT(longest_m, 0.0121) << "no wall throws it out";
+  }
+}
+
 /// A machine's scores there, and here.
 struct Compared {
   std::string machine;

@@ -80,8 +80,9 @@ TEST(MachineFile, ANumberOfMachinesEachHaveTheirHead) {
 }
 
 TEST(MachineFile, NamesThePlaceOfWhatIsWrong) {
-  EXPECT_THAT(complaints_about(std::string("# x\n#: format = 1\n#: flavour = \"melon\"\n") + kStop),
-              ElementsAre(HasSubstr("m.fsm:3:14: ")));
+  EXPECT_THAT(
+      complaints_about(std::string("# x\n#: format = 1\n#: flavour = \"melon\"\n") + kStop),
+      ElementsAre(AllOf(StartsWith("m.fsm:3:14: "), HasSubstr("name its file with --flavour"))));
   EXPECT_THAT(complaints_about(std::string("#: format = 1\n#: flavor = \"watermelon\"\n") + kStop),
               ElementsAre(HasSubstr("m.fsm:2:4: ")));
   EXPECT_THAT(complaints_about(std::string("#: format = 2\n") + kStop),

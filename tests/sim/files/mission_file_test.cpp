@@ -243,6 +243,24 @@ TEST(Placements, AreReadWithTheirKeys) {
             Placement(PlaceAt{{{1, 0, 0}, {-1, 0, 0.5}}}));
 }
 
+TEST(Placements, MayIgnoreObstacles) {
+  const auto read_with = [](const std::string& training) {
+    return read(
+        "shape = \"square\"\nside = 4\nobstacles = [ { shape = \"box\", x = 1, y = 0, length "
+        "= 0.5, width = 0.5, height = 0.2 } ]\n",
+        "robots = 1\ninstances = { training = { placement = \"fixed\", poses = [ { x = 1, y = "
+        "0 } ]" +
+            training + " } }\n");
+  };
+  const Mission mission = read_with(", ignores_obstacles = true");
+  EXPECT_TRUE(mission.ignores_obstacles);
+  const MissionEntry entry{mission};
+  EXPECT_THAT(mission_text(entry), HasSubstr("ignores_obstacles = true }"));
+  EXPECT_EQ(value_of(parse_mission(mission_text(entry), "x.toml")).mission, mission);
+  EXPECT_THAT(mission_text(MissionEntry{built_in_mission("aggregation").value()}),
+              Not(HasSubstr("ignores_obstacles")));
+}
+
 TEST(Placements, ThatCannotBeAreExplained) {
   const auto wrong = [](const std::string& training, const std::string& robots = "2") {
     return complaints("shape = \"square\"\nside = 4\n",

@@ -211,6 +211,34 @@ TEST(RobotFile, AMissionWithARobotReadsBackToTheSameBits) {
   }
 }
 
+TEST(RobotFile, ATableWithTheNameOfABuiltInRobotHasItsValues) {
+  const auto complaints_of_table = [](const std::string& keys) {
+    return complaints_of(
+        parse_mission("format = 1\nname = \"x\"\nrobots = 2\n[score]\nkind = "
+                      "\"coverage\"\n[robot]\n" +
+                          keys,
+                      "x.toml"));
+  };
+  EXPECT_THAT(complaints_of_table("name = \"epuck\"\nbase = \"epuck\"\n"), IsEmpty());
+  EXPECT_THAT(complaints_of_table("base = \"epuck\"\n[robot.neighbours]\nrange = 0.7\n"), IsEmpty())
+      << "it has no name of its own";
+  for (const std::string base : {"", "base = \"epuck\"\n", "base = \"rvr\"\n"}) {
+    EXPECT_THAT(
+        complaints_of_table("name = \"epuck\"\n" + base + "[robot.drive]\nmax_speed = 0.05\n"),
+        ElementsAre("x.toml:7:8: `epuck` is built in with other values; give the robot "
+                    "another name, or leave `name` out"))
+        << base;
+  }
+  Robot slow = built_in("epuck");
+  slow.drive.max_speed_mps = 0.05;
+  std::string whole;
+  for (const Section& section : robot_sections(slow, "robot"))
+    whole += text_of({section});
+  const std::string header = "[robot]\n";
+  EXPECT_THAT(complaints_of_table(whole.erase(whole.find(header), header.size())), IsEmpty())
+      << "as stores have it";
+}
+
 TEST(RobotFile, AMissionOfTheRvrSaysItsOutlineAlone) {
   const MissionEntry entry{built_in_mission("aggregation").value()};
   EXPECT_THAT(mission_text(entry),

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -197,6 +198,25 @@ TEST(Placement, AtFixedPosesWithoutRoomIsAnErrorThatNamesWhatIsInTheWay) {
   EXPECT_THAT(error({-1.2, 0.1, 0}), HasSubstr("would stand in obstacle 1"));
   EXPECT_THAT(error({1.1, 0.3, 0}), HasSubstr("would stand in obstacle 2"));
   EXPECT_THAT(error({1.5, -0.3, 0}), HasSubstr("would stand in object 1"));
+}
+
+TEST(Placement, MayIgnoreObstacles) {
+  Mission mission = built_in_mission("aggregation").value();
+  mission.arena.obstacles = {{.outline = BoxOutline{0.8, 0.8}, .pose = {}}};
+  const auto starts_in_it = [&] {
+    int count = 0;
+    for (std::int64_t seed = 1; seed <= 20; ++seed) {
+      const Instance instance = value_of(instance_of(mission, seed));
+      EXPECT_FALSE(has_overlaps(mission, instance));
+      count += static_cast<int>(std::ranges::count_if(instance.starts, [](const Pose& pose) {
+        return is_in(BoxOutline{0.8, 0.8}, {}, pose.position());
+      }));
+    }
+    return count;
+  };
+  EXPECT_EQ(starts_in_it(), 0);
+  mission.ignores_obstacles = true;
+  EXPECT_GT(starts_in_it(), 0);
 }
 
 TEST(MisplacedSolid, IsNamed) {

@@ -227,10 +227,10 @@ void check_twins(const RobotSamples& samples, Complaints& complaints) {
   const std::vector<std::int64_t>& frames = samples.twice;
   if (frames.size() <= twins_allowed(samples)) return;
   complaints.add(IssueCode::DuplicateId,
-                 fmt::format("was seen twice in {} frames, from frame {} to frame {}; in {} of "
+                 fmt::format("was seen twice in {}, from frame {} to frame {}; in {} of "
                              "them the robot's own could not be identified: take one tag away",
-                             frames.size(), std::ranges::min(frames), std::ranges::max(frames),
-                             samples.twice_unresolved));
+                             counted(frames.size(), "frame"), std::ranges::min(frames),
+                             std::ranges::max(frames), samples.twice_unresolved));
 }
 
 /// So many samples in a row beyond the walls are a robot, and not a misread tag.
