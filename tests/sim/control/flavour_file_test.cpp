@@ -88,9 +88,7 @@ TEST(FlavourFile, WhatIsWrongIsSaidWithItsPlace) {
   EXPECT_THAT(complaints(kOnWatermelon + "states = 17\n"),
               ElementsAre("mine.toml:3:10: `states` must be from 1 to 16, not 17"));
   EXPECT_THAT(
-      complaints("[behaviours]
-stop = { number = 0 }
-"),
+      complaints("[behaviours]\nstop = { number = 0 }\n"),
       ElementsAre(HasSubstr("a flavour needs a table [conditions] with at least one entry")));
   const std::string on_nothing =
       "[behaviours]\nstop = { number = 0 }\n[conditions]\nwhite_floor = { number = 0 }\n";
