@@ -253,7 +253,7 @@ TEST_F(CandidateCodeTest, ACodeThatMakesMoreThanATextHasIsRefusedBeforeItIsMade)
   EXPECT_EQ(one("SELECT length(module_code) > 20000 FROM candidate WHERE id = 2"), "1");
   const auto reader = open_reader(path);
   EXPECT_THROW(candidates_in(*reader), StoreFailure);
-  EXPECT_THAT(reader->integrity(), Contains(HasSubstr("more text")));
+  EXPECT_THAT(reader->integrity(), Contains(HasSubstr("longer than a store's")));
 }
 
 TEST_F(CandidateCodeTest, CodesThatMakeManyTimesTheFileAreRefused) {

@@ -268,7 +268,7 @@ TEST_F(MergeTest, RealRunsAndTheirCandidatesMoveAndNoneComesTwice) {
   ASSERT_TRUE((*StoreAtRest::open(c, StoreAtRest::IfMissing::Refuse))
                   ->add_real_run(*open_reader(b)->real_run({2})));
   EXPECT_THAT(complaint_of(merge_stores({b, c}, folder / "all.db", kUnwatched)),
-              HasSubstr("its real run r3 is r2 of the stores before it"));
+              HasSubstr("its real run r3 is the same as r2 of the stores before it"));
   EXPECT_FALSE(fs::exists(folder / "all.db"));
 }
 

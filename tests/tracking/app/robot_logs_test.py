@@ -126,7 +126,7 @@ class RobotLogs(unittest.TestCase):
                             (("r1", "-o", self.folder / "rvr.toml"), "is built in"),
                             (("r1", "r1"), "r1: is named twice"), ((self.log,), "name its arena file"),
                             (("r7",), "r7"), (("r1", "--base", "mars"), "mars"),
-                            (("r1", "--base", "epuck"), "give another --base (rvr, argos3, pseudo-reality, thesis-robots)")):
+                            (("r1", "--base", "epuck"), "give another --base (rvr, argos3, pseudo-reality, thesis-robots, epuck-ideal), or runs of another robot")):
             done = call(TRACK, "profile", *words, "--store", self.store)
             self.assertNotEqual(done.returncode, 0, done.stdout)
             self.assertIn(said, done.stderr)

@@ -388,7 +388,7 @@ TEST(BagFile, IsAnInputThatNoOutputDestroys) {
   write_bag(folder / "run.bag");
   expect_all_frames(read_video((folder / "run.bag").string() + ":" + kTopic));
   EXPECT_THAT(complaint_of(output_place(folder / "run.bag", FileKind::Video)),
-              HasSubstr("would be lost"));
+              HasSubstr("would be overwritten"));
 }
 
 TEST(BagFile, CutAnywhereGivesASentence) {
