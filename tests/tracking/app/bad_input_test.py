@@ -526,7 +526,7 @@ class BadInput(unittest.TestCase):
         mission = self.folder / "large.toml"
         text = (good.parent / "good.mission.toml").read_text()
         self.assertIn("length = 0.286, width = 0.286", text)
-        mission.write_text(text.replace("length = 0.286, width = 0.286", "length = 0.9, width = 0.9"))
+        mission.write_text(text.replace("length = 0.286, width = 0.286", "length = 0.7, width = 0.7"))
         done = self.score(good, "--mission", mission)
         self.assert_stored_as(done, "DEGRADED", "W_BODIES_OVERLAP", "mm inside", "mission's robot larger")
 

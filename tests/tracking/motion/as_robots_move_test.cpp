@@ -336,7 +336,7 @@ TEST(TravelTest, WhatTouchesARobotMayPushIt) {
   const Truth touching = [](int robot, double time_s) {
     if (robot == 0) return Pose{-0.5 + 0.02 * time_s, 0, 0};
     if (robot == 1) return Pose{-0.2 + 0.02 * time_s, 0, 0.5 * kPi};  // pushed to its side
-    return Pose{-0.5 + 0.02 * time_s, -1.04, 0.4 * kPi};              // along the wall
+    return Pose{-0.3 + 0.018 * time_s, -1.05, 0.4 * kPi};             // along the wall
   };
   Seeing seeing = usual();
   seeing.cycles = 300;

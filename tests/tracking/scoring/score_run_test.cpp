@@ -16,7 +16,7 @@ Mission mission_of(const char* name, int cycles) {
 TrackedRun standing_at(double x, double noise_px = 0.05) {
   const Truth still = [x](int robot, double /*time_s*/) {
     if (robot == 0) return Pose{x, 0, 0};
-    return robot == 1 ? Pose{0.2, 0, 1} : Pose{-0.1, 0.3, 2};
+    return robot == 1 ? Pose{0.2, 0, 0} : Pose{-0.1, 0.3, 2};
   };
   SeenRun seen = seen_run(still, {.cycles = 100, .noise_px = noise_px});
   seen.options.scored_at_the_end = true;
