@@ -266,7 +266,7 @@ TEST(Epuck, DrivesOutOfAWallInWhichItStarts) {
   mission.robots = 1;
   const Flavour& flavour = **find_flavour("chocolate-epuck");
   const Controller machine =
-      parse_controller("--nstates 1 --s0 0 --rwm0 5 --n0 0", flavour).value();
+      parse_controller("--nstates 1 --s0 0 --rwm0 5", flavour).value();
   for (const Point start : {Point{0, -0.1}, Point{0.3125, -0.02}, Point{-0.2, -0.09}}) {
     mission.placement = PlaceAt{{{start.x, start.y, 0.4}}};
     const Instance instance = instance_of(mission, 1).value();
