@@ -138,7 +138,7 @@ TEST(ArenaShapes, ThatMakeNoArenaAreExplained) {
       {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0, 1e9]]\n", "from -100 to 100"},
       {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0]]\n",
        "`corners` must be a list of lists of 2 numbers, such as"},
-      {"shape = \"polygon\"\n", "needs `corners` or `walls`"},
+      {"shape = \"polygon\"\n", "needs either `corners` or `walls`"},
       {"shape = \"square\"\nside = -1\n", "`side` must be from 0.1 to 200, this is -1"},
       {"shape = \"square\"\nside = nan\n", "this is nan"},
       {"shape = \"square\"\n", "needs `side`"},
