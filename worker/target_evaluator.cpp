@@ -42,7 +42,7 @@ Expected<std::string> allowed_file(const std::string& program,
   if (std::ranges::find(allowed, *file) != allowed.end()) return std::move(*file);
   return unexpected(ErrorKind::Conflict,
                     "the campaign needs the program " + *file +
-                        ", which this worker is not allowed to run: start the worker "
+                        ", which this worker may not run: start the worker "
                         "with --allow " +
                         *file);
 }

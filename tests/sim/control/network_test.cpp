@@ -165,7 +165,7 @@ TEST(NetworkText, SaysWhatIsWrongAndWhere) {
   std::string light = "--network rm1.2 --weights 0";
   for (int i = 1; i < 30; ++i)
     light += ",0";
-  EXPECT_THAT(complaint(light), HasSubstr("the flavour watermelon has not"));
+  EXPECT_THAT(complaint(light), HasSubstr("the flavour watermelon does not have"));
   EXPECT_TRUE(parse_network(light, chocolate()));
 }
 
@@ -241,7 +241,7 @@ TEST(GenomeText, SaysWhatCannotBeRead) {
   raw.sensors = 23;
   EXPECT_THAT(complaint(raw.text()), HasSubstr("a genome of 23 inputs"));
   raw.sensors = 25;
-  EXPECT_THAT(complaint(raw.text()), HasSubstr("which the flavour chocolate has not"));
+  EXPECT_THAT(complaint(raw.text()), HasSubstr("which the flavour chocolate does not have"));
   const std::string good = Genome().text();
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = good;
@@ -261,7 +261,7 @@ TEST(GenomeText, SaysWhatCannotBeRead) {
   EXPECT_THAT(changed("node 17 1 0 2\n", ""), HasSubstr("2 outputs"));
   EXPECT_THAT(changed("node 3 1", "node 2 1"), HasSubstr("node 2 twice"));
   EXPECT_THAT(parse_controller(good, watermelon()).error().message,
-              HasSubstr("the flavour watermelon has not"));
+              HasSubstr("the flavour watermelon does not have"));
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ TEST(ProfileFile, HasTheNameOfItsFileAndIdealDevicesUnlessItSaysOtherwise) {
 
 TEST(ProfileFile, NeedsANameThatStoresTake) {
   EXPECT_THAT(complaint_of(parse_profile("format = 1\n", "my rvr.toml")),
-              HasSubstr("this is \"my rvr\""));
+              HasSubstr("it is \"my rvr\""));
 }
 
 TEST(ProfileFile, MayBeginWithABuiltInOne) {

@@ -144,7 +144,7 @@ TEST(RobotFile, NumbersFarFromWhatTheBodyCanHaveAreRefused) {
       ElementsAre("mine.toml:3:8: all distances would be 0: `less` is 0.8 m, but `range` is "
                   "0.75 m; give a smaller `less`"));
   EXPECT_THAT(complaints("base = \"epuck\"\n[neighbours]\nrange = 0.07\n"),
-              ElementsAre(HasSubstr("`less` is 0.07 m, and `range` 0.07 m")));
+              ElementsAre(HasSubstr("`less` is 0.07 m, but `range` is 0.07 m")));
   EXPECT_THAT(complaints("base = \"epuck\"\n[neighbours]\nrange = 0\n"), IsEmpty())
       << "a robot that hears no other one";
   EXPECT_THAT(complaints("base = \"epuck\"\n[proximity]\nstart = 0.6\n"),
