@@ -172,5 +172,14 @@ TEST_F(StoredCampaign, SumsThatAreNotThoseOfTheScoresAreFound) {
         ElementsAre(HasSubstr("the store's sums of")));
 }
 
+TEST_F(StoredCampaign, ACandidateAfterAGapIsFound) {
+  go_on("first", 1, 0, 300);
+  EXPECT_THAT(
+      complaints_after("first",
+                       "CREATE TEMP TABLE last AS SELECT * FROM candidate ORDER BY id DESC LIMIT 1;"
+                       "UPDATE last SET id = id + 1; INSERT INTO candidate SELECT * FROM last"),
+      Contains(HasSubstr("1 candidates come after a gap")));
+}
+
 }  // namespace
 }  // namespace swarmsmith

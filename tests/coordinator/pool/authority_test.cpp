@@ -187,14 +187,15 @@ TEST_F(Authority, HoldsBackWhatANewcomerSaysUntilTheRefereeAgrees) {
 TEST_F(Authority, TriesNoResultThatAnotherWorkerGaveMeanwhile) {
   hello(2);
   enter(1, "10.0.0.1", 4);
-  give(1, 1, 3);
+  credit(1, 3);
+  want(1, 100);
   const std::uint64_t signature = give_back(1, 3);
   credit(2, 1);
   ASSERT_EQ(given[2], std::vector<std::int64_t>{3});
   answer(1, 1), answer(1, 2);
   answer(1, {.key = key(3), .attempt = 1, .measured = {.score = 1}, .signature = signature});
   answer(2, 3);
-  EXPECT_EQ(only<OutcomeAccepted>().outcome.worker, 2);
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.worker, 1);
   rule({.key = key(1), .kind = Ruling::Kind::TimedOut});
   EXPECT_EQ(asked(), key(2));
 }

@@ -76,7 +76,7 @@ TEST_F(Blame, WhatMayHaveKilledAWorkerRunsOnProvenWorkersAlone) {
 TEST_F(Blame, HalfOfTheWorkersAreKeptFreeForWhatRunsAlone) {
   hello(1);
   credit(1, 100);
-  want(1, 8);
+  want(1, 40);
   lose(1);
   const std::vector<std::int64_t> alone = given[1];
   ASSERT_GT(alone.size(), 3U);
