@@ -94,6 +94,9 @@ TEST(Expression, CalculatesAsRDoes) {
   EXPECT_TRUE(value(call(AsNumeric, text("1x"))).missing);
   EXPECT_EQ(value(call(AsText, number(0.5))).text, "0.5");
   EXPECT_EQ(value(call(AsInteger, number(-2.7))).number, -2);
+  EXPECT_EQ(value(call(Max, number(1.5), number(2.5))).number, 2.5);
+  EXPECT_EQ(value(call(Min, Expression::logical(true), Expression::logical(true))),
+            Scalar::integer(1));
 }
 
 TEST(Expression, RepeatsTheShorterVector) {

@@ -270,5 +270,22 @@ TEST(Wire, RefusesAHelloWithoutAName) {
   EXPECT_EQ(fault_of(encode(message)), "limits");
 }
 
+TEST(Wire, RefusesACommandBeyondItsLimits) {
+  const auto fault_with = [](const auto& change) {
+    pb::ToCoordinator message;
+    pb::Command& command = *message.mutable_command();
+    command.set_campaign(std::string(kMaxTextBytes, 'c'));
+    change(command);
+    return fault_of(encode(message));
+  };
+  EXPECT_EQ(fault_with([](pb::Command&) {}), "");
+  const std::string long_text(kMaxTextBytes + 1, 'x');
+  EXPECT_EQ(fault_with([&](pb::Command& command) { command.set_campaign(long_text); }), "limits");
+  EXPECT_EQ(fault_with([&](pb::Command& command) { command.set_who(long_text); }), "limits");
+  EXPECT_EQ(fault_with([&](pb::Command& command) { command.set_whom(long_text); }), "limits");
+  EXPECT_EQ(fault_with([](pb::Command& command) { command.set_design(-1); }), "limits");
+  EXPECT_EQ(fault_with([](pb::Command& command) { command.set_budget(-1); }), "limits");
+}
+
 }  // namespace
 }  // namespace swarmsmith

@@ -256,6 +256,18 @@ TEST_F(CandidateCodeTest, ACodeThatMakesMoreThanATextHasIsRefusedBeforeItIsMade)
   EXPECT_THAT(reader->integrity(), Contains(HasSubstr("longer than a store's")));
 }
 
+TEST_F(CandidateCodeTest, ATextHasEightMebibytesAtMost) {
+  PhraseBook book;
+  CandidateRow row;
+  for (const auto text : {&StoredTexts::machine, &StoredTexts::parameters, &StoredTexts::modules}) {
+    StoredTexts stored;
+    stored.*text = std::string(8 << 20, 'x');
+    EXPECT_TRUE(book.decode(stored, row));
+    stored.*text += 'x';
+    EXPECT_FALSE(book.decode(stored, row));
+  }
+}
+
 TEST_F(CandidateCodeTest, CodesThatMakeManyTimesTheFileAreRefused) {
   write(candidates(4, 0));
   // Each text is one that a store may have; together they are not.

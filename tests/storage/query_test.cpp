@@ -202,6 +202,7 @@ TEST_F(QueryTest, TakesNoMoreMemoryThanItMay) {
   EXPECT_LT(peak_memory() - before, 500);
   EXPECT_TRUE(query("SELECT printf('%.*c', 30000000, 'x')")) << "a long value is one";
   EXPECT_TRUE(query("SELECT count(*) FROM v_evaluations")) << "the limits outlived their query";
+  EXPECT_EQ(sqlite3_hard_heap_limit64(-1), 0) << "and that of all queries";
 }
 
 TEST_F(QueryTest, StopsAtTheLimitOfBytes) {

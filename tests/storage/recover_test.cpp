@@ -235,6 +235,17 @@ TEST_F(RecoverTest, OfPagesThatAreOverwrittenTheOthersAreKept) {
   }
 }
 
+TEST_F(RecoverTest, OfATableThatIsLostItsIndexGivesTheRows) {
+  const std::int64_t root =
+      sqlite::integer_of(sqlite::Connection(damaged, SQLITE_OPEN_READWRITE),
+                         "SELECT rootpage FROM sqlite_schema WHERE name = 'source'");
+  std::string broken = bytes;
+  broken.replace(static_cast<std::size_t>(root - 1) * kPage, kPage, kPage, '\0');
+  write_bytes(damaged, broken);
+  EXPECT_EQ(recovered(), digest);
+  EXPECT_GT(std::ranges::find(found.tables, "source", &SalvagedTable::name)->rows, 0);
+}
+
 TEST_F(RecoverTest, BytesThatAreChangedAnywhereBreakNothing) {
   Rng rng(6);
   for (int round = 0; round < 15; ++round) {

@@ -178,6 +178,12 @@ TEST_F(StoreTest, RefusesNumbersThatAreNotFinite) {
   EXPECT_TRUE(store->scores().empty());
 }
 
+TEST_F(StoreTest, EndsWithRowsThatItCanNeverTake) {
+  auto store = begun();
+  store->append({CandidateTotalsRow{.candidate = {999}, .runs = 1}});  // of no candidate
+  EXPECT_THAT(to_string(why_not(store->flush())), HasSubstr("takes no more of them"));
+}
+
 TEST_F(StoreTest, CountsTicketsFromOneAndTellsThemInOrderBeforeFlushReturns) {
   auto store = open_store(path, campaign);
   std::vector<std::uint64_t> told;

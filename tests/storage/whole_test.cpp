@@ -415,10 +415,12 @@ struct WhileItRuns : OfOthers {
     EXPECT_TRUE(store->flush());
     const std::string digest = digest_of(path);
     change(path, sql);
+    const auto rows = cells_of(*open_reader(path), "SELECT count(*) FROM evaluation");
     append(campaign.batches.size() / 2, campaign.batches.size());
     const auto flushed = store->flush();
     EXPECT_FALSE(flushed);
     store.reset();
+    EXPECT_EQ(cells_of(*open_reader(path), "SELECT count(*) FROM evaluation"), rows);
     EXPECT_FALSE(opened(path)) << "it was gone on with";
     return flushed ? "" : to_string(flushed.error());
   }

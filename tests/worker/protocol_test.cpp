@@ -38,6 +38,7 @@ class Protocol : public ::testing::Test {
       }
       if (std::holds_alternative<OpenConnection>(action)) ++connections;
       if (std::holds_alternative<TakeBack>(action)) asked_back = true;
+      if (std::holds_alternative<UseScenario>(action)) ++scenarios;
       if (auto* leave = std::get_if<Leave>(&action)) left = *leave;
     }
   }
@@ -59,6 +60,10 @@ class Protocol : public ::testing::Test {
     welcome.mutable_welcome()->set_scenario(digest_of_scenario("scenario"));
     welcome.mutable_welcome()->set_max_credit(4096);
     hear(welcome);
+    get_scenario();
+  }
+
+  void get_scenario() {
     pb::ToWorker scenario;
     scenario.mutable_scenario()->set_scenario("scenario");
     hear(scenario);
@@ -108,6 +113,7 @@ class Protocol : public ::testing::Test {
   std::vector<PackedKey> given;
   std::uint64_t incarnation = 0;
   int connections = 0;
+  int scenarios = 0;
   bool asked_back = false;
   std::optional<Leave> left;
 };
@@ -116,21 +122,30 @@ TEST_F(Protocol, SaysHelloThenAsksForTheScenarioThenForWork) {
   EXPECT_EQ(connections, 1);
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(said[0].body_case(), pb::ToCoordinator::kHello);
+  get_scenario();  // before the welcome
+  EXPECT_EQ(scenarios, 0);
   be_welcome();
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(said[0].credit().tasks(), 2U);
+  get_scenario();
+  EXPECT_EQ(scenarios, 1) << "it has it";
 }
 
 TEST_F(Protocol, AsksForMoreWhenEvaluationsAreShort) {
   be_welcome();
   get_tasks(1, 2);
   finish(1);
+  EXPECT_TRUE(said_body(pb::ToCoordinator::kCredit)) << "with the results";
+  get_tasks(3, 1);
+  protocol.on_started(key(2), now);
   pass(seconds(1));
   ASSERT_TRUE(said_body(pb::ToCoordinator::kHeartbeat));
   // 2 a slot, and 20 ms of 0.3 ms each.
   for (const auto& message : said) {
     if (message.has_heartbeat()) {
       EXPECT_EQ(message.heartbeat().credit(), 68U);
+      ASSERT_EQ(message.heartbeat().running_size(), 1) << "the third has not begun";
+      EXPECT_EQ(message.heartbeat().running(0).elapsed_ms(), 1000);
     }
   }
 }
@@ -258,6 +273,10 @@ TEST_F(Protocol, DropsEverythingWhenAnotherCampaignRuns) {
   EXPECT_EQ(protocol.held(), 0U);
   EXPECT_EQ(protocol.unacknowledged(), 0U);
   EXPECT_TRUE(said_body(pb::ToCoordinator::kWantScenario));
+  pass(milliseconds(999));
+  EXPECT_FALSE(said_body(pb::ToCoordinator::kWantScenario));
+  pass(milliseconds(1));
+  EXPECT_TRUE(said_body(pb::ToCoordinator::kWantScenario)) << "once a second";
 }
 
 TEST_F(Protocol, NoticesASilentCoordinator) {

@@ -60,11 +60,16 @@ TEST_F(TargetEvaluators, GiveTheNegativeOfTheCost) {
 }
 
 TEST_F(TargetEvaluators, DigestWhatWasPrinted) {
-  const Result first = evaluate(item());
-  ASSERT_EQ(first.failure, "");
-  EXPECT_EQ(evaluate(item()).measured.state_digest, first.measured.state_digest);
-  script("target-runner", "echo 2.5 8\n");
-  EXPECT_NE(evaluate(item()).measured.state_digest, first.measured.state_digest);
+  const auto digest_of = [&](const std::string& printed) {
+    script("target-runner", "echo " + printed + "\n");
+    const Result result = evaluate(item());
+    EXPECT_EQ(result.failure, "");
+    return result.measured.state_digest;
+  };
+  EXPECT_EQ(digest_of("2.5 7"), digest_of("2.5 7"));
+  EXPECT_EQ(digest_of("0 7"), digest_of("-0 7"));
+  EXPECT_NE(digest_of("2.5 7"), digest_of("2.5 8"));
+  EXPECT_NE(digest_of("1e-20 7"), digest_of("2e-20 7"));
 }
 
 TEST_F(TargetEvaluators, NameTheInstance) {

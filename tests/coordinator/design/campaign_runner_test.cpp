@@ -219,8 +219,10 @@ TEST(CampaignRunner, KeepsFinishedRacesByTheirSize) {
   const std::vector<DesignPlan> plans = small_plans(3);
   const std::int64_t budget = plans.front().row.budget;
   CampaignRunner small(plans, {}, {}, {}, {.finished_experiments = 3 * budget});
+  EXPECT_EQ(small.unfinished().size(), 3U);
   run(small, memory, Rng(1));
   ASSERT_TRUE(small.finished());
+  EXPECT_TRUE(small.unfinished().empty());
   EXPECT_TRUE(small.take_ended().empty()) << "all can be extended";
   CampaignRunner large(plans, {}, {}, {}, {.finished_experiments = budget / 2});
   run(large, memory, Rng(1));

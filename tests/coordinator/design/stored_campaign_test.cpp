@@ -53,11 +53,14 @@ class StoredCampaign : public ::testing::Test {
   std::string digest(const std::string& name) {
     return (*StoreReader::open(folder_ / name))->digest();
   }
-  void expect_clean(const std::string& name) {
-    auto reader = value_of(StoreReader::open(folder_ / name));
-    const Verification found = *verify(*reader);
-    EXPECT_THAT(found.complaints, IsEmpty());
+  std::vector<std::string> complaints(const std::string& name) {
+    return verify(*value_of(StoreReader::open(folder_ / name)))->complaints;
   }
+  std::vector<std::string> complaints_after(const std::string& name, const std::string& sql) {
+    sqlite::Connection(folder_ / name, SQLITE_OPEN_READWRITE).execute(sql);
+    return complaints(name);
+  }
+  void expect_clean(const std::string& name) { EXPECT_THAT(complaints(name), IsEmpty()); }
 
   Campaign campaign_ = two_designs();
   TemporaryFolder folder_;
@@ -140,7 +143,8 @@ TEST_F(StoredCampaign, AFinishedStoreGoesOnWithMoreBudget) {
 }
 
 /// A cancelled design is over, as a finished one is: its scores must give all that it has.
-TEST_F(StoredCampaign, OfACancelledDesignAMissingScoreIsFound) {
+TEST_F(StoredCampaign, OfADesignThatIsOverAMissingScoreIsFound) {
+  go_on("second", 1, 0.3);
   go_on("first", 1, 0, 300, [](CampaignRunner& runner) {
     ASSERT_TRUE(runner.carry_out(command(1, CommandKind::Cancel, 2)));
   });
@@ -148,14 +152,33 @@ TEST_F(StoredCampaign, OfACancelledDesignAMissingScoreIsFound) {
   go_on("first", 3, 0, 1, [](CampaignRunner& runner) {
     ASSERT_TRUE(runner.carry_out(command(2, CommandKind::Cancel, 1)));
   });
-  expect_clean("first");
-  sqlite::Connection(folder_ / "first", SQLITE_OPEN_READWRITE)
-      .execute(
-          "DELETE FROM evaluation WHERE (candidate, purpose, pair) = (SELECT candidate, purpose,"
-          " pair FROM evaluation WHERE purpose = 0 AND iteration > 0 LIMIT 1)");
-  const Verification found = *verify(**StoreReader::open(folder_ / "first"));
-  EXPECT_THAT(found.complaints,
-              Contains(HasSubstr("the design is finished, but 1 evaluation is missing")));
+  for (const char* store : {"first", "second"}) {
+    expect_clean(store);
+    EXPECT_THAT(complaints_after(store,
+                                 "DELETE FROM evaluation WHERE (candidate, purpose, pair) = (SELECT"
+                                 " candidate, purpose, pair FROM evaluation WHERE purpose = 0 AND"
+                                 " iteration > 0 LIMIT 1)"),
+                Contains(HasSubstr("the design is finished, but 1 evaluation is missing")));
+  }
+}
+
+TEST_F(StoredCampaign, SumsThatAreNotThoseOfTheScoresAreFound) {
+  go_on("first", 1, 0.3);
+  for (const char* sql : {"UPDATE candidate_totals SET score_sum = score_sum + 1 WHERE",
+                          "DELETE FROM candidate_totals WHERE"})
+    EXPECT_THAT(
+        complaints_after("first", std::string(sql) +
+                                      " candidate = (SELECT min(candidate) FROM candidate_totals)"),
+        ElementsAre(HasSubstr("the store's sums of")));
+}
+
+TEST_F(StoredCampaign, ACandidateAfterAGapIsFound) {
+  go_on("first", 1, 0, 300);
+  EXPECT_THAT(
+      complaints_after("first",
+                       "CREATE TEMP TABLE last AS SELECT * FROM candidate ORDER BY id DESC LIMIT 1;"
+                       "UPDATE last SET id = id + 1; INSERT INTO candidate SELECT * FROM last"),
+      Contains(HasSubstr("1 candidates come after a gap")));
 }
 
 }  // namespace

@@ -109,6 +109,7 @@ TEST_F(Authority, AsksForADisputedResultAgainUntilTheRaceTellsTheTask) {
   EXPECT_TRUE(all<ConflictFound>().empty());
   EXPECT_EQ(all<OutcomeRepeated>().size(), acknowledged);
   resend(1, 1, 4);
+  scheduler.forget(1);  // another campaign
   dispute(1);
   EXPECT_EQ(all<ConflictFound>().size(), 1U);
   EXPECT_EQ(all<OutcomeRepeated>().size(), acknowledged + 1);
@@ -181,6 +182,22 @@ TEST_F(Authority, HoldsBackWhatANewcomerSaysUntilTheRefereeAgrees) {
   rule_score(2);
   EXPECT_EQ(all<OutcomeAccepted>().size(), 4U) << "it is known now";
   EXPECT_EQ(all<OutcomeAccepted>()[3].outcome.worker, 1);
+}
+
+TEST_F(Authority, TriesNoResultThatAnotherWorkerGaveMeanwhile) {
+  hello(2);
+  enter(1, "10.0.0.1", 4);
+  credit(1, 3);
+  want(1, 100);
+  const std::uint64_t signature = give_back(1, 3);
+  credit(2, 1);
+  ASSERT_EQ(given[2], std::vector<std::int64_t>{3});
+  answer(1, 1), answer(1, 2);
+  answer(1, {.key = key(3), .attempt = 1, .measured = {.score = 1}, .signature = signature});
+  answer(2, 3);
+  EXPECT_EQ(only<OutcomeAccepted>().outcome.worker, 1);
+  rule({.key = key(1), .kind = Ruling::Kind::TimedOut});
+  EXPECT_EQ(asked(), key(2));
 }
 
 TEST_F(Authority, DropsEverythingThatALiarSaidWhenItsFirstWordIsWrong) {
@@ -411,6 +428,7 @@ TEST_F(Authority, BelievesAKeyThatWasCutOutFromNoAddress) {
   enter(1, "10.0.0.1", 1, 1, "node");
   enter(2, "10.0.0.2", 1, 1, "node");
   enter(3, "10.0.0.1", 1, 1, "other");
+  EXPECT_NE(all<SendReject>().at(0).sentence.find("in quarantine. `"), std::string::npos);
   EXPECT_EQ(scheduler.workers().connected(), 1U);
   EXPECT_FALSE(scheduler.forgive("node@10.0.0.2", "a person", now).empty());
   enter(4, "10.0.0.1", 1, 1, "node");

@@ -73,6 +73,23 @@ TEST_F(Blame, WhatMayHaveKilledAWorkerRunsOnProvenWorkersAlone) {
   EXPECT_EQ(given[2], (std::vector<std::int64_t>{given[1].front()}));
 }
 
+TEST_F(Blame, HalfOfTheWorkersAreKeptFreeForWhatRunsAlone) {
+  hello(1);
+  credit(1, 100);
+  want(1, 40);
+  lose(1);
+  const std::vector<std::int64_t> alone = given[1];
+  ASSERT_GT(alone.size(), 3U);
+  std::int64_t begun = 0;
+  for (PeerId peer = 2; peer <= 5; ++peer)
+    hello(peer);
+  for (PeerId peer = 2; peer <= 5; ++peer) {
+    credit(peer, 1);
+    if (!given[peer].empty()) begun += std::ranges::count(alone, given[peer].front());
+  }
+  EXPECT_EQ(begun, 2);
+}
+
 TEST_F(Blame, StrangersHaveTheRefereeDoOneThingAtATime) {
   want(1, 64);
   for (PeerId peer = 1; peer <= 30; ++peer) {
@@ -189,23 +206,27 @@ TEST_F(BlameOfPrograms, StrangersCannotRejectByDying) {
 }
 
 TEST_F(BlameOfPrograms, OnePrincipalCannotRejectByDyingWhereThereAreOthers) {
-  for (PeerId peer = 1; peer <= 2; ++peer) {
-    enter(peer, "10.0.0." + std::to_string(peer));
-    give(peer, 100 + peer);
-    answer(peer, 100 + peer);
-    credit(peer, 0);
+  for (const bool others : {true, false}) {
+    scheduler = Scheduler(options);
+    given.clear();
+    for (PeerId peer = 1; peer <= 2; ++peer) {
+      enter(peer, peer == 1 && others ? "10.0.0.1" : "10.0.0.2");
+      give(peer, 100 + peer);
+      answer(peer, 100 + peer);
+      credit(peer, 0);
+    }
+    want(1, 1);
+    std::uint64_t incarnation = 1;
+    for (int i = 0; i < 10 && scheduler.counters().rejected == 0; ++i) {
+      const PeerId peer = 10 + static_cast<PeerId>(i);
+      enter(peer, "10.0.0.2", 1, ++incarnation);
+      credit(peer, 1, incarnation);
+      ASSERT_FALSE(given[peer].empty());
+      scheduler.on_began({peer, incarnation, 99}, key(1), now);
+      leave(peer);
+    }
+    EXPECT_EQ(scheduler.counters().rejected, others ? 0U : 1U);
   }
-  want(1, 1);
-  std::uint64_t incarnation = 1;
-  for (int i = 0; i < 10; ++i) {
-    const PeerId peer = 10 + static_cast<PeerId>(i);
-    enter(peer, "10.0.0.2", 1, ++incarnation);
-    credit(peer, 1, incarnation);
-    ASSERT_FALSE(given[peer].empty());
-    scheduler.on_began({peer, incarnation, 99}, key(1), now);
-    leave(peer);
-  }
-  EXPECT_EQ(scheduler.counters().rejected, 0U);
 }
 
 }  // namespace

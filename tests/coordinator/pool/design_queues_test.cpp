@@ -157,6 +157,8 @@ TEST_F(Queues, GiveNothingOfWhatIsHeld) {
   EXPECT_EQ(lease(), PoolDesign{});
   queues.hold({1, 0}, false);
   EXPECT_EQ(queues.wanted(), 2U);
+  EXPECT_EQ(queues.wanted_of({1, 0}), 2U);
+  EXPECT_EQ(queues.wanted_of({1, 1}), 1U);
   queues.hold({0, 1}, false);
   EXPECT_EQ(queues.wanted(), 4U);
 }

@@ -36,6 +36,28 @@ TEST_F(Schedulers, CloseAMessageAtSixtyFourTasks) {
   EXPECT_EQ(messages[3].tasks.size(), 8U);
 }
 
+TEST_F(Schedulers, CloseALongMessageEarlier) {
+  std::vector<Task> calls(100, task_of(0));
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    calls[i].key.candidate.value = static_cast<std::int64_t>(i) + 1;
+    calls[i].alive.assign(1000, 1);  // 8 bytes for each
+  }
+  hello(1);
+  credit(1, 18);
+  scheduler.add(std::move(calls));
+  move();
+  const auto messages = all<SendTasks>();
+  ASSERT_EQ(messages.size(), 2U);
+  EXPECT_EQ(messages[0].tasks.size(), 9U);
+}
+
+TEST_F(Schedulers, ForgetTheTasksOfACampaign) {
+  hello(1);
+  give(1, 1, 3);
+  scheduler.forget(0);
+  EXPECT_EQ(scheduler.leases().size(), 0U);
+}
+
 TEST_F(Schedulers, AcceptTheFirstResultAndDropTheSecond) {
   hello(1);
   give(1, 1);
@@ -262,7 +284,8 @@ TEST_F(Schedulers, KeepWhatAReturningWorkerHolds) {
   EXPECT_EQ(given[1], (std::vector<std::int64_t>{1, 2}));
   hello(1, 1, 2, 0, {key(2)});
   EXPECT_EQ(scheduler.leases().leased(), 1U);
-  EXPECT_TRUE(scheduler.leases().find(key(2))->lease);
+  ASSERT_TRUE(scheduler.leases().find(key(2))->lease);
+  EXPECT_EQ(scheduler.leases().find(key(2))->lease->attempt, 1) << "the lease that it had";
   credit(1, 2, 2);
   EXPECT_EQ(given[1].back(), 1);
 }

@@ -1,6 +1,7 @@
 #include "irace_core/search/annealing.h"
 
 #include <gmock/gmock.h>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -78,14 +79,17 @@ TEST(Annealing, AtZeroAcceptsWhatIsEqual) {
 }
 
 TEST(Annealing, WarmAcceptsWhatIsWorseAndColdDoesNot) {
-  SearchOptions options = annealing(1e6);
-  std::get<AnnealingOptions>(options).end_temperature = 1e6;
-  const auto cost = [](const Configuration& c, const Experiment&) { return c[0]; };
-  const Played warm = play(*started(weights_space(1), options, 4000), cost);
+  const auto at = [](double temperature) {
+    SearchOptions options = annealing(temperature);
+    std::get<AnnealingOptions>(options).end_temperature = temperature;
+    const auto cost = [](const Configuration& c, const Experiment&) { return 1 + std::fabs(c[0]); };
+    return walked_of_steps(play(*started(weights_space(1), options, 4000), cost));
+  };
   // A random walk: the parent of nearly every candidate is the one before it.
-  const auto [walked, steps] = walked_of_steps(warm);
+  const auto [walked, steps] = at(1e6);
   EXPECT_GT(steps, 0);
   EXPECT_GT(walked, steps * 95 / 100);
+  EXPECT_LT(at(1e-6).first, steps / 2);
 }
 
 TEST(Annealing, CountsTemperaturesInStandardDeviations) {
@@ -126,6 +130,21 @@ TEST(OneParameterNeighbourhood, ChangesOneAndKeepsTheSpace) {
     modes.insert(now[0]);
   }
   EXPECT_EQ(modes.size(), 3U);
+}
+
+TEST(OneParameterNeighbourhood, SaysWhenThereIsNothingElse) {
+  Rng rng(4);
+  for (const std::vector<std::string>& values : {std::vector<std::string>{"a"}, {"a", "b"}}) {
+    const auto is_b =
+        Expression::call(Operation::Equal, {Expression::parameter("mode"), Expression::text("b")});
+    const ParameterSpace space =
+        ParameterSpace::make({{"mode", "--mode ", Categorical{values}, {}}}, {is_b}, 2).value();
+    Configuration now(1);
+    now.set(0, 0);
+    const auto other = search::one_parameter_neighbourhood(space, now).perturb(now, rng);
+    ASSERT_FALSE(other);
+    EXPECT_THAT(other.error().message, ::testing::HasSubstr("beside the incumbent"));
+  }
 }
 
 }  // namespace
