@@ -8,6 +8,7 @@
 #include "base/rng.h"
 #include "sim/engine/internal/gaps.h"
 #include "sim/engine/internal/world.h"
+#include "sim/files/robot_file.h"
 #include "tests/support/not_empty.h"
 
 // Obstacles, movable objects, other outlines and walls that are not convex, in whole worlds.
@@ -77,11 +78,14 @@ TEST(Solids, OnlyPlainWorldsArePlain) {
 }
 
 TEST(Solids, AnObstacleOfAnyFormStopsARobotOfAnyFormAtItsFace) {
-  for (const Outline& robot : not_empty(outlines())) {
+  std::vector<Robot> robots = {find_robot("epuck", "").value()};  // discs have their own solver
+  for (const Outline& outline : not_empty(outlines()))
+    robots.push_back(rvr_with(outline));
+  for (const Robot& robot : robots) {
     for (const Outline& obstacle : outlines()) {
       Arena arena = room();
       arena.obstacles = {{.outline = obstacle, .pose = {0.6, 0, kPi}}};
-      World world(arena, rvr_with(robot), std::vector<Pose>{{0, 0, 0}}, ContactModel::Exact);
+      World world(arena, robot, std::vector<Pose>{{0, 0, 0}}, ContactModel::Exact);
       const FixedSolid& solid = world.obstacles()[0];
       double least = 1;
       for (int tick = 0; tick < 40; ++tick) {

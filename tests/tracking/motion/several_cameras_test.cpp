@@ -44,6 +44,21 @@ TEST(SeveralCamerasTest, HandARobotOver) {
   EXPECT_EQ(std::ranges::count(run.robots[0].cycles, CycleKind::Measured), 300);
 }
 
+TEST(SeveralCamerasTest, ATwinThatOneOfThemSeesIsCounted) {
+  SeenRun seen = two_cameras();
+  std::vector<Sighting> twins = seen.observations.sightings;
+  std::erase_if(twins, [](const Sighting& of) {
+    return of.camera != 0 || of.tag != 1 || of.frame < 200 || of.frame > 230;
+  });
+  for (Sighting& twin : twins) {
+    for (ImagePoint& corner : twin.corners)
+      corner.u += 300;
+    seen.observations.sightings.push_back(twin);
+  }
+  EXPECT_THAT(issue_of(seen.track().value(), IssueCode::DuplicateId).text,
+              HasSubstr("twice in 31 frames"));
+}
+
 TEST(SeveralCamerasTest, DisagreementIsSaidWithNumbers) {
   SeenRun seen = two_cameras();
   // A clock 60 ms off is 18 mm at 0.3 m/s.
