@@ -166,7 +166,7 @@ class TrackRecord(unittest.TestCase):
                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE,
                                                                  (limit, limit)))
         self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertRegex(done.stderr, r"run\.mkv: cannot be written: File too large; run\.mkv holds")
+        self.assertRegex(done.stderr, r"run\.mkv: cannot be written: File too large; run\.mkv has")
         size = (self.folder / "run.mkv").stat().st_size
         self.assertGreater(size, limit / 2)
         frames = self.frames_in("run.mkv")

@@ -139,7 +139,7 @@ TEST(Methods, SaysWhatDoesNotFitTogether) {
               HasSubstr("`max_states` is for machines"));
   EXPECT_THAT(complaint_about("max_subtrees = 2\n"), HasSubstr("`max_subtrees` is for trees"));
   EXPECT_THAT(complaint_about("method = \"evostick\"\n[method.network]\ninputs = \"rm1.2\"\n"),
-              HasSubstr("the flavour watermelon has not"));
+              HasSubstr("the flavour watermelon does not have"));
   EXPECT_THAT(complaint_about("search = \"cma-es\"\n"),
               HasSubstr(":7:10: the search cma-es needs reals without conditions"));
   EXPECT_THAT(complaint_about("architecture = \"tree\"\nsearch = \"evolution\"\n"),

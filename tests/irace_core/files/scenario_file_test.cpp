@@ -182,7 +182,8 @@ TEST(ScenarioFile, FunctionsOfRAreRefusedWithAWayOut) {
 
 TEST(ScenarioFile, ValuesThatGoNowhereAreErrors) {
   const World world;
-  EXPECT_THAT(world.errors("5 + 5"), ElementsAre(HasSubstr("this value goes nowhere")));
+  EXPECT_THAT(world.errors("5 + 5"),
+              ElementsAre(HasSubstr("this value is not assigned to an option")));
 }
 
 TEST(ScenarioFile, OptionsWithoutAMeaningHereAreRefusedOrIgnored) {

@@ -155,7 +155,7 @@ TEST(DriverWatch, ADriverThatFailsEndsTheRun) {
          of.obey();
          of.hear_rival();
        }},
-      {"it obeys another one", [](DrivenRobot& of) { of.say(0.17, 0.11); }}};
+      {"it follows other commands", [](DrivenRobot& of) { of.say(0.17, 0.11); }}};
   for (const auto& [why, fault] : faults) {
     DrivenRobot robot;
     robot.run_with(fault);

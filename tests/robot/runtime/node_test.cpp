@@ -412,7 +412,7 @@ TEST(RobotNode, GoesOnWhenAClockIsSteppedAndSaysWhich) {
   back.operator_ahead_s = -7;
   back.cycles(30);
   EXPECT_EQ(back.state().phase, Phase::Failed);
-  EXPECT_THAT(back.state().reasons[0], HasSubstr("dated 7.00 s too early"));
+  EXPECT_THAT(back.state().reasons[0], HasSubstr("times 7.00 s too early"));
 }
 
 TEST(RobotNode, HearsOnlyTheOperatorOfItsRun) {

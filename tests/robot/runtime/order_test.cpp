@@ -97,7 +97,7 @@ TEST(OrderDoor, RefusesOldRepeatedAndFutureStarts) {
   OrderDoor door("rvr1");
   Order order = start_order();
   EXPECT_THAT(door.refusal(order, order.sent_unix_s + 1.5).value(), HasSubstr("1.5 s old"));
-  EXPECT_THAT(door.refusal(order, order.sent_unix_s - 2).value(), HasSubstr("ahead"));
+  EXPECT_THAT(door.refusal(order, order.sent_unix_s - 2).value(), HasSubstr("in the future"));
   EXPECT_EQ(door.refusal(order, order.sent_unix_s + 0.5), std::nullopt);
   EXPECT_THAT(door.refusal(order, order.sent_unix_s + 0.6).value(), HasSubstr("before"));
   order.id = "a1-8";

@@ -133,7 +133,7 @@ TEST(RunStarter, RefusesASwarmThatIsNotOne) {
   Bench indices({{}, {.robot_index = 2}, {}});
   indices.run(12);
   EXPECT_THAT(indices.starter->complaints(),
-              ElementsAre(HasSubstr("rvr3: has the random stream 2 of rvr2")));
+              ElementsAre(HasSubstr("rvr3: has the random stream 2, as rvr2")));
   Bench silent;
   silent.speaks[1] = false;
   silent.robots[2]->ground = false;

@@ -220,7 +220,7 @@ TEST(LockStep, AnotherNumberOfRobotsIsRefused) {
   InProcessSwarm swarm({"rvr1"});
   const auto result = run_in_lock_step(swarm.world(), by_number(), scene.run(), {});
   ASSERT_FALSE(result.has_value());
-  EXPECT_THAT(result.error().message, HasSubstr("3 robots, and 1"));
+  EXPECT_THAT(result.error().message, HasSubstr("3 robots, but 1"));
 }
 
 }  // namespace

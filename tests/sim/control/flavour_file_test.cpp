@@ -76,7 +76,7 @@ TEST(FlavourFile, WhatIsWrongIsSaidWithItsPlace) {
               ElementsAre(HasSubstr("it is one of: \"front readings\", \"vector sum\", \"front "
                                     "readings, side of the sum\"")));
   EXPECT_THAT(complaints(kOnWatermelon + "[behaviours]\nstop = {}\n"),
-              ElementsAre(HasSubstr("`stop` needs its `number` in texts")));
+              ElementsAre(HasSubstr("`stop` needs a `number`, as in texts of machines")));
   EXPECT_THAT(
       complaints(kOnWatermelon +
                  "[conditions]\nneighbour_count = { number = 2, xi = { token = \"w\" } }\n"),
