@@ -404,7 +404,7 @@ class BadInput(unittest.TestCase):
         for robots, sections, wanted in (
                 (three, point(-0.5), r'\[\[point\]\] of "rvr1" is at -0\.50 s, but the run goes from 0 s to'),
                 (three, point(500), r'is at 500\.00 s, but the run goes'),
-                ('robots = ["rvr1", "rvr2"]\n', point(1, "rvr3"), r'`robots` leaves out "rvr3", and has: rvr1, rvr2'),
+                ('robots = ["rvr1", "rvr2"]\n', point(1, "rvr3"), r'`robots` leaves out "rvr3"; it has: rvr1, rvr2'),
                 ('robots = ["rvr1", "rvr2"]\n', '[[robot]]\nname = "rvr3"\nverdict = "VALID"\n',
                  r'`robots` leaves out "rvr3", .* take out its \[\[robot\]\]'),
                 ('robots = ["rvr1", "rvr2", "rvr3", "rvr2"]\n', "", r'`robots` has "rvr2" twice')):
