@@ -29,9 +29,10 @@ ExitCode run_report(const ReportArguments& arguments, Output& output) {
     }
     const auto id = parse_thing_id(text);
     if (!id || id->letter != 'd') {
-      return fail(output, ExitCode::Usage,
-                  Error{ErrorKind::BadInput,
-                        "must be a design such as d3, or \"all\", not \"" + text + "\"", "--design"});
+      return fail(
+          output, ExitCode::Usage,
+          Error{ErrorKind::BadInput,
+                "must be a design such as d3, or \"all\", not \"" + text + "\"", "--design"});
     }
     options.designs.push_back({std::stoll(id->digits)});
   }

@@ -30,8 +30,8 @@ Expected<int> instant_of(std::string_view text, const char* option, const Missio
   }
   std::string most;
   append_number(most, longest);
-  return bad_input("must be seconds from 0 to " + most + ", the mission's end, not \"" + given + "\"",
-                   option);
+  return bad_input(
+      "must be seconds from 0 to " + most + ", the mission's end, not \"" + given + "\"", option);
 }
 
 std::string seconds_text(int instant) {

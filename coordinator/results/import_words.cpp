@@ -58,8 +58,8 @@ OrErrors<MissionWords> read_mission_words(const std::vector<std::string>& words)
     }
     const std::string after = word.substr(equals + 1);
     if (before.empty() || after.empty()) {
-      return wrong("must be NAME, OLD=NEW, or a mission file in place of NAME or NEW, not `" + word +
-                   "`");
+      return wrong("must be NAME, OLD=NEW, or a mission file in place of NAME or NEW, not `" +
+                   word + "`");
     }
     auto name = mission_of(after, read);
     if (!name) return tl::unexpected(std::move(name.error()));
