@@ -129,7 +129,7 @@ TEST_F(OwnFlavour, WhatIsWrongInItsFileIsSaidThere) {
               ElementsAre(HasSubstr("mine.toml:4:1: the file has no key `speed`")));
   EXPECT_THAT(
       complaints("format = 1\nbase = \"chocolate-epuck\"\n", {.method = kMethod}),
-      ElementsAre(HasSubstr("the flavour `mine` takes strengths from proximity sensors, and the "
+      ElementsAre(HasSubstr("the flavour `mine` takes strengths from proximity sensors, but the "
                             "robot `rvr` gives distances")));
   FileText file{.method = kMethod};
   file.method = "name = \"m\"\n[method.flavour]\nname = \"watermelon\"\nbase = \"chocolate\"\n";

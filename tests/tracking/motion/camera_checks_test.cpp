@@ -244,7 +244,6 @@ TEST(CalibrationTest, SaysHowNearToItsLimitsItIs) {
   expect("lens calibration", lens.rms_px, lens_px, 1.01 * lens_px, 1);
   expect("floor tags fit the camera's place", place.rms_px, place_px, 1.01 * place_px, 1);
   expect("worst floor tag, left out", place.worst_left_out_m, 0.005, 0.0051, 1000);
-  expect("floor tags around the arena", place.coverage, 0.5, 0.49, 100);
 }
 
 TEST(PlaceTest, OfAnEditedFileIsNoPlace) {

