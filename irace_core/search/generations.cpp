@@ -24,8 +24,8 @@ Expected<GenerationPlan> plan_generations(std::int64_t budget, std::int64_t popu
   if (is_automatic) final_runs = published_final_runs(budget, population);
   const std::int64_t least = population * (runs + (is_automatic ? 1 : final_runs));
   if (budget < least) return Unexpected(too_small(budget, least));
-  // With a small budget, runs for the first generation are reserved first.
-  if (is_automatic) final_runs = std::min(final_runs, (budget - population * runs) / population);
+  // With a small budget, runs for the first generation are reserved first; runs that are given fit.
+  final_runs = std::min(final_runs, (budget - population * runs) / population);
   const std::int64_t generations = (budget - population * final_runs) / (population * runs);
   // Runs that are not enough for a generation go to the final stage, so that the budget is used up.
   const std::int64_t left = budget - generations * population * runs;

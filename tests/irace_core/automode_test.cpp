@@ -63,8 +63,6 @@ TEST(AutomodeSpace, RacesAHundredThousandExperiments) {
   ASSERT_GE(starts.size(), 9U);
   EXPECT_EQ(starts.front().n_iterations, 9);
   EXPECT_EQ(starts.front().budget, 11'111);
-  EXPECT_EQ(starts.front().model_digest, 0U) << "no model yet";
-  EXPECT_NE(starts.back().model_digest, 0U);
   // The cap of 1024 less some: a robot that only stops is the same machine each time it is drawn.
   EXPECT_GT(starts.front().n_configurations, 1000);
   EXPECT_LE(starts.front().n_configurations, 1024);

@@ -169,7 +169,7 @@ TEST_F(StoredCampaign, SumsThatAreNotThoseOfTheScoresAreFound) {
     EXPECT_THAT(
         complaints_after("first", std::string(sql) +
                                       " candidate = (SELECT min(candidate) FROM candidate_totals)"),
-        ElementsAre(HasSubstr("the store's sums of")));
+        Contains(HasSubstr("the store's sums of")));
 }
 
 TEST_F(StoredCampaign, ACandidateAfterAGapIsFound) {
