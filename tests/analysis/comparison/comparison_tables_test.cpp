@@ -58,6 +58,8 @@ TEST(ComparisonText, HasGroupsPairsRanksAndHow) {
   EXPECT_THAT(ranks, testing::ContainsRegex("mean rank +95 % interval\n *a, b +1.000 .*\n"
                                             " *c +2.000 .*\n"))
       << "a headline, and a row for each name";
+  EXPECT_THAT(ranks, AllOf(HasSubstr("  1) n is too small"), Not(HasSubstr("  2) "))))
+      << "a note of two pairs once";
   EXPECT_THAT(text, HasSubstr("Wilcoxon rank-sum test, two-sided; exact without ties; Holm's over "
                               "1 pair."));
   EXPECT_THAT(text, HasSubstr("seed 1"));

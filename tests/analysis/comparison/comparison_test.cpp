@@ -71,6 +71,11 @@ TEST(Comparison, RunsArePairedBySeed) {
   EXPECT_THAT(comparison.pairs.front().notes,
               Contains("runs left out, since only one of the two sources has them: 6"));
   EXPECT_THAT(comparison.notes, Contains(HasSubstr("not independent")));
+  EXPECT_THAT(compare(records_of(of_two_methods()),
+                      {.by = CompareBy::Method, .choice = {.purpose = "", .unit = ScoreUnit::Run}})
+                  .notes,
+              Not(Contains(HasSubstr("not independent"))))
+      << "a run of each design";
 }
 
 /// Six designs under two profiles, the second on seeds of its own from `first_seed` on.
@@ -91,8 +96,7 @@ std::vector<DesignScore> under_two_profiles(std::int64_t first_seed) {
 TEST(Comparison, SaysThatPairedDesignsRanOnOtherSeeds) {
   const std::string note =
       "the seeds of pseudo-reality and rvr differ in 6 of 6 designs, so a part of the difference "
-      "may "
-      "be theirs";
+      "may be theirs";
   const Comparison other = compare(under_two_profiles(2), {.by = CompareBy::Source});
   EXPECT_THAT(other.pairs.front().notes, Contains(note));
   EXPECT_THAT(other.seeds, ElementsAre(note));
@@ -241,7 +245,8 @@ TEST(Comparison, TestsThatRHasNoPForSayWhy) {
   const ComparedPair& pair = comparison.pairs.front();
   EXPECT_FALSE(pair.test.p_value);
   EXPECT_FALSE(pair.p_holm);
-  EXPECT_THAT(pair.notes, Contains("all values are the same: no p"));
+  EXPECT_THAT(pair.notes, ElementsAre("all values are the same: no p",
+                                      "an interval of one value has no width"));
 }
 
 TEST(Comparison, TakesWhatTheOptionsAskFor) {

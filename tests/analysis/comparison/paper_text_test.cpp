@@ -1,8 +1,7 @@
 #include "analysis/comparison/paper_text.h"
 
-#include <gmock/gmock.h>
-
 #include "tests/analysis/comparison/scores.h"
+#include "tests/support/checks.h"
 
 namespace swarmsmith {
 namespace {
@@ -33,22 +32,20 @@ TEST(PaperSentences, SayWhoIsBetterWithTestEffectAndInterval) {
   EXPECT_EQ(sentences.front().text,
             "On color selection, new_one scored higher than old in simulation with the profile rvr "
             "(n = 10 and 10 designs; mean scores 25.5 and 6; Wilcoxon rank-sum test, two-sided, W "
-            "= 100, p < 0.0001; A12 = 1.00 "
-            "(large), difference of the means 19.5, " +
+            "= 100, p < 0.0001; A12 = 1.00 (large), difference of the means 19.5, " +
                 sentences.front().text.substr(sentences.front().text.find("95 % interval")));
-  EXPECT_THAT(
-      sentences.front().latex,
-      testing::HasSubstr("new\\_one scored higher than old in simulation with the profile rvr "
-                         "($n = 10$ and 10 designs"));
-  EXPECT_THAT(sentences.front().latex, testing::HasSubstr("$p < 0.0001$; $\\hat{A}_{12} = 1.00$"));
-  EXPECT_THAT(sentences.front().latex, testing::HasSubstr("95\\,\\% interval $["));
+  EXPECT_THAT(sentences.front().latex,
+              HasSubstr("new\\_one scored higher than old in simulation with the profile rvr "
+                        "($n = 10$ and 10 designs"));
+  EXPECT_THAT(sentences.front().latex, HasSubstr("$p < 0.0001$; $\\hat{A}_{12} = 1.00$"));
+  EXPECT_THAT(sentences.front().latex, HasSubstr("95\\,\\% interval $["));
 }
 
 TEST(PaperSentences, NeverCallNoiseADifference) {
   const Comparison comparison = compare(records_of(of_two_methods(0.9)), {.by = CompareBy::Method});
   EXPECT_THAT(paper_sentences(comparison).front().text,
-              testing::HasSubstr("no difference was found between new_one and old in "
-                                 "simulation with the profile rvr"));
+              HasSubstr("no difference was found between new_one and old in "
+                        "simulation with the profile rvr"));
 }
 
 TEST(PaperSentences, GoByHolmWhereThereAreSeveral) {
@@ -61,10 +58,10 @@ TEST(PaperSentences, GoByHolmWhereThereAreSeveral) {
                        .repetition = i,
                        .scores = {i + 0.6}});
   const Comparison three = compare(records_of(designs), {.by = CompareBy::Method});
-  EXPECT_THAT(paper_sentences(alone).front().text, testing::HasSubstr("new_one scored higher"));
-  EXPECT_THAT(paper_sentences(three).front().text,
-              testing::AllOf(testing::HasSubstr("by Holm over 3 comparisons p = "),
-                             testing::HasSubstr("no difference was found")));
+  EXPECT_THAT(paper_sentences(alone).front().text, HasSubstr("new_one scored higher"));
+  EXPECT_THAT(
+      paper_sentences(three).front().text,
+      AllOf(HasSubstr("by Holm over 3 comparisons p = "), HasSubstr("no difference was found")));
 }
 
 TEST(PaperSentences, OfTheSameDesignsInTwoSourcesArePaired) {
@@ -75,12 +72,10 @@ TEST(PaperSentences, OfTheSameDesignsInTwoSourcesArePaired) {
   }
   const auto sentences = paper_sentences(compare(records_of(designs), {}));
   ASSERT_EQ(sentences.size(), 1U);
-  EXPECT_THAT(
-      sentences.front().text,
-      testing::StartsWith("On aggregation, designs by watermelon scored higher in simulation "
-                          "with the profile rvr than on the robots (n = 10 designs; mean scores 11 "
-                          "and 5.5; Wilcoxon "
-                          "signed-rank test, two-sided, V = 55, p = 0.002; "));
+  EXPECT_THAT(sentences.front().text,
+              StartsWith("On aggregation, designs by watermelon scored higher in simulation "
+                         "with the profile rvr than on the robots (n = 10 designs; mean scores 11 "
+                         "and 5.5; Wilcoxon signed-rank test, two-sided, V = 55, p = 0.002; "));
 }
 
 TEST(PaperSentences, WithoutPairsSayHowEachGroupDid) {

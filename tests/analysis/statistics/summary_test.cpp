@@ -19,6 +19,7 @@ TEST(Summary, OfFourValues) {
   EXPECT_EQ(summary.median, 2.5);
   EXPECT_EQ(summary.upper_quartile, 3.25);
   EXPECT_EQ(summary.most, 4);
+  EXPECT_EQ(quantile_of(std::vector<double>{1, HUGE_VAL}, 0), 1);
 }
 
 TEST(Summary, OfOneValueHasNoSpread) {

@@ -1,6 +1,8 @@
 #include "robot/runtime/driver_watch.h"
 
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "tests/robot/runtime/bench_robot.h"
 #include "tests/support/checks.h"
@@ -22,6 +24,8 @@ class DrivenRobot : public BenchRobot {
   void say(double left, double right, const char* sender = "driver") {
     node.driver().hear(DrivenMessage{{clock, 0}, left, right, sender});
   }
+  void obey(const char* sender = "driver") { say(treads.left_mps, treads.right_mps, sender); }
+  void hear_rival() { node.driver().hear(RivalMessage{{clock, 0}, "/teleop"}); }
   /// What was commanded so many cycles ago.
   const Command& commanded(std::size_t ago) const {
     return commands[commands.size() - std::min(commands.size(), ago + 1)];
@@ -43,9 +47,7 @@ class DrivenRobot : public BenchRobot {
 
   /// A whole run; the driver's fault begins after 5 s.
   void run_with(
-      const Driver& fault, const Driver& before = [](DrivenRobot& robot) {
-        robot.say(robot.treads.left_mps, robot.treads.right_mps);
-      }) {
+      const Driver& fault, const Driver& before = [](DrivenRobot& robot) { robot.obey(); }) {
     for (int i = 0; i < 3; ++i)
       drive(before);
     node.hear(order(Order::Kind::Start), now());
@@ -104,22 +106,21 @@ TEST(DriverWatch, TheLogSaysForHowLongTheDriverDidNotObey) {
                  Field(&RunEnd::driver_off_s, testing::Ge(least_s)),
                  Field(&RunEnd::driver_off_s, testing::Le(most_s)));
   };
-  const auto obeys = [](DrivenRobot& of) { of.say(of.treads.left_mps, of.treads.right_mps); };
   DrivenRobot prompt;
-  prompt.run_with(obeys);
+  prompt.run_with([](DrivenRobot& of) { of.obey(); });
   EXPECT_THAT(prompt.node.head().end.value(), is(true, RunVerdict::Valid, 0, 0.1));
   DrivenRobot pauses;
-  pauses.run_with([&](DrivenRobot& of) {
-    if (of.clock - of.fault_at > milliseconds(600)) obeys(of);
+  pauses.run_with([](DrivenRobot& of) {
+    if (of.clock - of.fault_at > milliseconds(600)) of.obey();
   });
   EXPECT_THAT(pauses.node.head().end.value(), is(true, RunVerdict::Degraded, 0.5, 0.7));
   DrivenRobot silent;
   silent.run_with([](DrivenRobot&) {});
   EXPECT_THAT(silent.node.head().end.value(), is(true, RunVerdict::Invalid, 1.0, 1.2));
   DrivenRobot contradicted;
-  contradicted.run_with([&](DrivenRobot& of) {
-    obeys(of);
-    of.node.driver().hear(RivalMessage{{of.clock, 0}, "/teleop"});
+  contradicted.run_with([](DrivenRobot& of) {
+    of.obey();
+    of.hear_rival();
   });
   EXPECT_THAT(contradicted.node.head().end.value(), is(true, RunVerdict::Invalid, 1.0, 1.2));
   DrivenRobot quiet;
@@ -137,66 +138,45 @@ TEST(DriverWatch, ADriverMayRoundToACentimetreASecond) {
   EXPECT_EQ(robot.state().verdict, RunVerdict::Valid);
 }
 
-TEST(DriverWatch, ASilentDriverEndsTheRun) {
-  DrivenRobot robot;
-  robot.run_with([](DrivenRobot&) {});
-  expect_invalid(robot, "driver: driver does not say what the treads do (for 1.10 s, since 5.0 s)");
-}
-
-TEST(DriverWatch, ADeadDriverEndsTheRun) {
-  DrivenRobot robot;
-  robot.run_with([](DrivenRobot& of) { of.listeners = [] { return std::vector<Listener>(); }; });
-  expect_invalid(robot, "driver is gone: no driver listens to the speeds of the treads");
-}
-
-TEST(DriverWatch, AReplacedDriverEndsTheRun) {
-  DrivenRobot robot;
-  robot.run_with([](DrivenRobot& of) { of.say(of.treads.left_mps, of.treads.right_mps, "other"); });
-  expect_invalid(robot, "other drives the treads in place of driver");
-}
-
-TEST(DriverWatch, ASecondDriverEndsTheRun) {
-  DrivenRobot robot;
-  robot.run_with([](DrivenRobot& of) {
-    of.say(of.treads.left_mps, of.treads.right_mps);
-    of.say(of.treads.left_mps, of.treads.right_mps, "other");
-  });
-  expect_invalid(robot, "other drives the treads, too, beside driver");
-}
-
-TEST(DriverWatch, SpeedsOfAnotherOneEndTheRun) {
-  DrivenRobot robot;
-  robot.run_with([](DrivenRobot& of) {
-    of.say(of.treads.left_mps, of.treads.right_mps);
-    of.node.driver().hear(RivalMessage{{of.clock, 0}, "/teleop"});
-  });
-  expect_invalid(robot, "/teleop commands the treads, too");
+TEST(DriverWatch, ADriverThatFailsEndsTheRun) {
+  const std::vector<std::pair<const char*, DrivenRobot::Driver>> faults{
+      {"driver: driver does not say what the treads do (for 1.10 s, since 5.0 s)",
+       [](DrivenRobot&) {}},
+      {"driver is gone: no driver listens to the speeds of the treads",
+       [](DrivenRobot& of) { of.listeners = [] { return std::vector<Listener>(); }; }},
+      {"other drives the treads in place of driver", [](DrivenRobot& of) { of.obey("other"); }},
+      {"other drives the treads, too, beside driver",
+       [](DrivenRobot& of) {
+         of.obey();
+         of.obey("other");
+       }},
+      {"/teleop commands the treads, too",
+       [](DrivenRobot& of) {
+         of.obey();
+         of.hear_rival();
+       }},
+      {"it obeys another one", [](DrivenRobot& of) { of.say(0.17, 0.11); }}};
+  for (const auto& [why, fault] : faults) {
+    DrivenRobot robot;
+    robot.run_with(fault);
+    expect_invalid(robot, why);
+  }
 }
 
 TEST(DriverWatch, OneSpeedOfAnotherOneDegradesTheRun) {
   DrivenRobot robot;
   robot.run_with([](DrivenRobot& of) {
-    of.say(of.treads.left_mps, of.treads.right_mps);
-    if (of.clock == of.fault_at + milliseconds(100))
-      of.node.driver().hear(RivalMessage{{of.clock, 0}, "/teleop"});
+    of.obey();
+    if (of.clock == of.fault_at + milliseconds(100)) of.hear_rival();
   });
   EXPECT_EQ(robot.state().phase, Phase::Ended);
   EXPECT_EQ(robot.state().verdict, RunVerdict::Degraded);
   EXPECT_THAT(robot.state().reasons[0], HasSubstr("driver: /teleop commands the treads, too"));
 }
 
-TEST(DriverWatch, ADriverThatObeysAnotherOneEndsTheRun) {
-  DrivenRobot robot;
-  robot.run_with([](DrivenRobot& of) { of.say(0.17, 0.11); });
-  expect_invalid(robot, "it obeys another one");
-}
-
 TEST(DriverWatch, ADriverThatHoldsTheTreadsEndsTheRun) {
   DrivenRobot robot;
-  robot.run_with([](DrivenRobot& of) {
-    if (of.speed() == 0) return of.say(0, 0);
-    of.say(0, 0);
-  });
+  robot.run_with([](DrivenRobot& of) { of.say(0, 0); });
   // While the node holds them, too, they agree for a moment; it tries a few times.
   expect_invalid(robot, "driver says that they do 0 and 0 m/s, and 0.3", false);
 }

@@ -30,10 +30,13 @@ TEST(Feeds, TakeAMissingSensorForSilenceAndNameIt) {
   Feeds feeds({});
   const std::vector<double> free(8, kInfinity);
   feeds.hear(RangesMessage{at_ms(0), std::vector<double>(8, 0.2)});
-  std::vector<double> broken = free;
-  broken[3] = std::nan("");
-  feeds.hear(RangesMessage{at_ms(100), broken});
-  EXPECT_EQ(feeds.heard(Feed::Proximity), 1);
+  std::vector<double> broken;
+  for (const std::size_t sensor : {0U, 7U, 3U}) {
+    broken = free;
+    broken[sensor] = std::nan("");
+    feeds.hear(RangesMessage{at_ms(100), broken});
+    EXPECT_EQ(feeds.heard(Feed::Proximity), 1) << sensor;
+  }
   EXPECT_EQ(feeds.sensed().proximity_m[0], 0.2) << "not free";
   EXPECT_EQ(feeds.age(Feed::Proximity, TimePoint(milliseconds(100))), milliseconds(100));
   EXPECT_THAT(feeds.trouble(Feed::Proximity), testing::HasSubstr("sensor 3 (-90 degrees)"));

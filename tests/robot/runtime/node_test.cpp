@@ -102,25 +102,19 @@ TEST(RobotNode, TakesAnotherStartAfterARunAndEachNameOnce) {
 TEST(RobotNode, RefusesStartsThatAreOldRepeatedForOthersOrAtTheWrongTime) {
   BenchRobot robot;
   robot.cycles(2);
-  const auto expect_refused = [&robot](const Order& order, const char* why) {
+  const auto expect_refused = [&robot](double Order::*part, double more, const char* why) {
+    Order order = robot.order(Order::Kind::Start);
+    order.*part += more;
     robot.node.hear(order, robot.now());
     EXPECT_EQ(robot.state().phase, Phase::Ready) << why;
     EXPECT_THAT(robot.state().refused, HasSubstr(why));
     robot.cycle();
   };
+  expect_refused(&Order::sent_unix_s, -5, "old");
+  expect_refused(&Order::at_unix_s, -3, "ago");
+  expect_refused(&Order::at_unix_s, 100, "ahead");
+  expect_refused(&Order::seconds, -29.96, "shorter than a cycle");
   Order order = robot.order(Order::Kind::Start);
-  order.sent_unix_s -= 5;
-  expect_refused(order, "old");
-  order = robot.order(Order::Kind::Start);
-  order.at_unix_s -= 3;
-  expect_refused(order, "ago");
-  order = robot.order(Order::Kind::Start);
-  order.at_unix_s += 100;
-  expect_refused(order, "ahead");
-  order = robot.order(Order::Kind::Start);
-  order.seconds = 0.04;
-  expect_refused(order, "shorter than a cycle");
-  order = robot.order(Order::Kind::Start);
   order.robots = {"rvr9"};
   robot.node.hear(order, robot.now());
   EXPECT_EQ(robot.state().phase, Phase::Ready);
@@ -387,6 +381,7 @@ TEST(RobotNode, WantsABatteryAndADriver) {
   robot.node.hear(BatteryMessage{.charge = std::nan("")});
   robot.cycle();
   EXPECT_EQ(robot.state().phase, Phase::Ready);
+  EXPECT_EQ(robot.state().battery, std::nullopt);
 }
 
 TEST(RobotNode, StandsStillAfterASignal) {
@@ -466,11 +461,21 @@ TEST(RobotNode, InLockStepTakesCyclesInOrderOnly) {
   EXPECT_EQ(why_not(robot.node.answer(gray, robot.now())).message,
             "the colour of cycle 1 is not a number");
   EXPECT_EQ(robot.state().phase, Phase::Failed);
-  EXPECT_EQ(robot.state().phase, Phase::Failed);
   EXPECT_FALSE(robot.node.answer(senses(8, 2), robot.now()));
   EXPECT_TRUE(robot.node.answer(senses(9, 1), robot.now()));
   EXPECT_TRUE(robot.node.answer(senses(9, 0), robot.now()));
   EXPECT_EQ(robot.state().phase, Phase::Ended);
+}
+
+TEST(RobotNode, InCountedLockStepHasTheWorldsTimeInEachRow) {
+  BenchRobot robot({.max_mps = kMaxWheelSpeed_mps});
+  robot.send_all();
+  robot.node.begin_counted(robot.now());
+  for (int cycle = 1; cycle <= 3; ++cycle) {
+    const Decision decision = robot.node.step_counted(robot.now());
+    EXPECT_EQ(decision.row->cycle, cycle);
+    EXPECT_NEAR(decision.row->sensed.time_s, 0.1 * cycle, 1e-12);
+  }
 }
 
 TEST(RobotNode, InLockStepIsWhatTheControllerIs) {

@@ -1,5 +1,8 @@
 #include "robot/runtime/replay.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/robot/runtime/bench_robot.h"
 #include "tests/support/checks.h"
 
@@ -35,8 +38,7 @@ RunRecord record_of(const std::string& machine, TurnClock turn_clock) {
 
 constexpr const char* kTree =
     "--nroot 3 --nchildroot 2 --n0 0 --nchild0 2 --n00 6 --c00 0 --p00 0.5 --n01 5 --a01 0 --rwm01 "
-    "5 "
-    "--p01 0 --n1 0 --nchild1 2 --n10 6 --c10 5 --p10 0.2 --n11 5 --a11 1 --p11 0";
+    "5 --p01 0 --n1 0 --nchild1 2 --n10 6 --c10 5 --p10 0.2 --n11 5 --a11 1 --p11 0";
 
 TEST(LogReplay, GivesEachCommandOfEveryArchitectureAgain) {
   for (const std::string& machine :
@@ -54,33 +56,30 @@ TEST(LogReplay, GivesEachCommandOfEveryArchitectureAgain) {
 
 TEST(LogReplay, SaysAtWhichCycleSomethingDiffers) {
   const RunRecord record = record_of(kCuriousMachine, TurnClock::Cycles);
-  const auto difference = [](const RunRecord& changed) {
+  const auto difference = [&record](const auto& change) {
+    RunRecord changed = record;
+    change(changed);
     return replay_log(changed).value().difference.value_or(LogReplay::Difference{});
   };
-  RunRecord changed = record;
-  changed.rows[40].command.left_mps = std::nextafter(changed.rows[40].command.left_mps, 1);
-  EXPECT_EQ(difference(changed).cycle, 41);
-  EXPECT_THAT(difference(changed).what, HasSubstr("speeds"));
-  changed = record;
-  changed.head.seed = 12;
-  EXPECT_GT(difference(changed).cycle, 0);
-  changed = record;
-  changed.head.robot_index = 1;
-  EXPECT_GT(difference(changed).cycle, 0);
-  changed = record;
-  changed.rows[40].state += 1;
-  EXPECT_THAT(difference(changed).what, HasSubstr("state"));
-  changed = record;
-  changed.rows[40].drawn += 1;
-  EXPECT_THAT(difference(changed).what, HasSubstr("random numbers"));
-  changed = record;
-  changed.rows.insert(changed.rows.begin() + 41, changed.rows[40]);
-  EXPECT_THAT(difference(changed).what, HasSubstr("comes after"));
-  changed = record;
-  for (LogRow& row : changed.rows) {
-    if (row.act == Act::Hold) row.command.left_mps = 0.1;
+  const auto speeds = difference([](RunRecord& of) {
+    of.rows[40].command.left_mps = std::nextafter(of.rows[40].command.left_mps, 1);
+  });
+  EXPECT_EQ(speeds.cycle, 41);
+  EXPECT_THAT(speeds.what, HasSubstr("speeds"));
+  EXPECT_GT(difference([](RunRecord& of) { of.head.seed = 12; }).cycle, 0);
+  EXPECT_GT(difference([](RunRecord& of) { of.head.robot_index = 1; }).cycle, 0);
+  EXPECT_THAT(difference([](RunRecord& of) { of.rows[40].state += 1; }).what, HasSubstr("state"));
+  EXPECT_THAT(difference([](RunRecord& of) { of.rows[40].drawn += 1; }).what,
+              HasSubstr("random numbers"));
+  EXPECT_THAT(
+      difference([](RunRecord& of) { of.rows.insert(of.rows.begin() + 41, of.rows[40]); }).what,
+      HasSubstr("comes after"));
+  for (double Command::*tread : {&Command::left_mps, &Command::right_mps}) {
+    const auto moved = difference([tread](RunRecord& of) {
+      std::ranges::find(of.rows, Act::Hold, &LogRow::act)->command.*tread = 0.1;
+    });
+    EXPECT_THAT(moved.what, HasSubstr("held"));
   }
-  EXPECT_THAT(difference(changed).what, HasSubstr("held"));
 }
 
 TEST(LogReplay, RefusesAHeadThatCannotBeRead) {

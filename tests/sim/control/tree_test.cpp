@@ -83,10 +83,8 @@ TEST(Tree, ConditionsHoldWithTheirProbability) {
 
 constexpr const char* kPublished =
     "--nroot 3 --nchildroot 3 --n0 0 --nchild0 2 --n00 6 --c00 5 --p00 0.16 --n01 5 --a01 4 "
-    "--att01 "
-    "3.26 --p01 0 --n1 0 --nchild1 2 --n10 6 --c10 3 --p10 6 --w10 10.24 --n11 5 --a11 1 --p11 0 "
-    "--n2 "
-    "0 --nchild2 2 --n20 6 --c20 0 --p20 0.45 --n21 5 --a21 0 --rwm21 21 --p21 0";
+    "--att01 3.26 --p01 0 --n1 0 --nchild1 2 --n10 6 --c10 3 --p10 6 --w10 10.24 --n11 5 --a11 1 "
+    "--p11 0 --n2 0 --nchild2 2 --n20 6 --c20 0 --p20 0.45 --n21 5 --a21 0 --rwm21 21 --p21 0";
 
 TEST(TreeText, ReadsAndPrintsTheFormOfThePrograms) {
   for (const char* prefix : {"", "--bt-config "}) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 #include "sim/files/robot_file.h"
+#include "tests/sim/engine/statistics.h"
 #include "tests/support/long_runs.h"
 #include "tests/support/not_empty.h"
 #include "tests/support/temporary_folder.h"
@@ -63,11 +65,11 @@ const Profile& ideal() {
 
 /// Robots that stand at their places, and the senses of the first.
 struct Stand {
-  Stand(const Mission& mission, std::vector<Pose> at)
+  Stand(const Mission& mission, std::vector<Pose> at, const Profile& profile = ideal())
       : arena(mission.arena),
         poses(std::move(at)),
         world(arena, mission.robot, poses, ContactModel::Exact),
-        senses(world, arena, ideal(), 0, Rng(1)) {
+        senses(world, arena, profile, 0, Rng(1)) {
     senses.remember(Sensors::all());
     begin(1);
   }
@@ -129,6 +131,32 @@ TEST(Epuck, ReadsTheLightAsTheOriginalDoes) {
     }
   }
   EXPECT_GT(hidden, 3);
+}
+
+/// Where there is nothing to read, noise is seen where it is positive.
+TEST(Epuck, EachSensorHasUniformNoiseOfItsOwn) {
+  constexpr int kCycles = 1000;
+  Profile noisy = ideal();
+  noisy.proximity.half_width = noisy.light.half_width = 0.05;
+  Mission mission = golden_mission("rt-aac");
+  mission.arena.lights.clear();
+  Stand stand(mission, {{0, 0, 0}}, noisy);
+  std::array<int, 2 * kProximitySensors> above{};
+  std::vector<double> strengths;
+  for (int cycle = 1; cycle <= kCycles; ++cycle) {
+    stand.begin(cycle);
+    for (std::size_t i = 0; i < above.size(); ++i) {
+      const std::size_t sensor = i % kProximitySensors;
+      const double strength =
+          i < kProximitySensors ? stand.senses.proximity()[sensor] : stand.senses.light()[sensor];
+      if (strength == 0) continue;
+      ++above.at(i);
+      strengths.push_back(strength);
+    }
+  }
+  for (const int count : above)
+    EXPECT_LT(std::fabs(binomial_z(count, kCycles, 0.5)), 3.3);
+  EXPECT_LT(ks_statistic(strengths, [](double x) { return x / 0.05; }), kKsLimit);
 }
 
 TEST(Epuck, HearsOthersAsTheOriginalDoes) {

@@ -187,12 +187,10 @@ TEST(TravelTest, ATagThatWasPutBackTurnedIsNamed) {
     turn_tag(seen, 1, turned * kDegree);
     const TrackedRun run = seen.track().value();
     EXPECT_GT(worst_error(run, driven), 0.03);
-    const Issue* issue = find_issue(run, IssueCode::TagTurned);
-    ASSERT_NE(issue, nullptr) << turned;
-    EXPECT_EQ(issue->robot, "rvr2");
-    EXPECT_THAT(issue->text,
-                HasSubstr("its tag is turned by " + std::to_string(static_cast<int>(turned)) +
-                          " degrees since"));
+    const Issue& issue = issue_of(run, IssueCode::TagTurned);
+    EXPECT_EQ(issue.robot, "rvr2");
+    EXPECT_THAT(issue.text, HasSubstr("its tag is turned by " +
+                                      std::to_string(static_cast<int>(turned)) + " degrees since"));
     EXPECT_EQ(errors_of(run).size(), 1U) << errors_of(run).back();
     EXPECT_EQ(find_check(run, "travel against heading", "rvr2")->outcome, Check::Outcome::Failed);
     EXPECT_EQ(find_check(run, "travel against heading", "rvr1")->outcome, Check::Outcome::Passed);

@@ -1,6 +1,7 @@
 #include "tests/support/checks.h"
 #include "tests/tracking/motion/seen_run.h"
 #include "tracking/motion/resampling.h"
+#include "tracking/rig/calibration_limits.h"
 
 namespace swarmsmith {
 namespace {
@@ -24,7 +25,10 @@ TEST(CoverageTest, TheLastInstantIsNeverExtrapolatedWhereItCounts) {
   SeenRun seen = seen_run(on_circle, {.cycles = 200, .past_end_s = -0.01});
   EXPECT_TRUE(seen.track()->issues.empty()) << seen.track()->issues.front().text;
   seen.options.scored_at_the_end = true;
-  EXPECT_NE(find_issue(*seen.track(), IssueCode::VideoTruncated), nullptr);
+  const TrackedRun run = seen.track().value();
+  EXPECT_NE(find_issue(run, IssueCode::VideoTruncated), nullptr);
+  EXPECT_EQ(find_check(run, "gap around the last instant", "rvr1")->reason,
+            "the film ends before the run");
   // One that reaches it does.
   SeenRun whole = seen_run(on_circle, {.cycles = 200, .past_end_s = 0});
   whole.options.scored_at_the_end = true;
@@ -219,6 +223,28 @@ TEST(CameraMovedTest, IsAskedForAtTheEndAsWell) {
   SeenRun short_while = seen_run(on_circle, {.cycles = 300});
   cover_references(short_while, 100, 23);
   EXPECT_TRUE(short_while.track()->issues.empty());
+}
+
+TEST(CalibrationTest, SaysHowNearToItsLimitsItIs) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 50});
+  CameraCalibration& lens = seen.rig.models.begin()->second;
+  PlaceCalibration& place = seen.rig.places.begin()->second;
+  const auto expect = [&](const char* question, double& of, double limit, double beyond,
+                          double shown) {
+    for (const double value : {beyond, limit}) {
+      of = value;
+      const TrackedRun run = seen.track().value();
+      const Check* check = find_check(run, question, "camera0");
+      EXPECT_DOUBLE_EQ(check->value.value(), shown * value) << question;
+      EXPECT_EQ(check->outcome == Check::Outcome::Passed, value == limit) << question;
+    }
+  };
+  const double lens_px = rms_limit_px(lens.model);
+  const double place_px = rms_limit_px(place);
+  expect("lens calibration", lens.rms_px, lens_px, 1.01 * lens_px, 1);
+  expect("floor tags fit the camera's place", place.rms_px, place_px, 1.01 * place_px, 1);
+  expect("worst floor tag, left out", place.worst_left_out_m, 0.005, 0.0051, 1000);
+  expect("floor tags around the arena", place.coverage, 0.5, 0.49, 100);
 }
 
 TEST(PlaceTest, OfAnEditedFileIsNoPlace) {

@@ -59,6 +59,9 @@ TEST(ChecksTest, OfACleanRunPassAndSayWhatWasNotAsked) {
     EXPECT_EQ(gap->unit, "s");
     EXPECT_NE(find_check(run, "gap around the last instant", robot), nullptr);
   }
+  for (const char* name : {"repeated pictures", "length of the film", "clock of the film",
+                           "steps of the clock", "speed of the robots"})
+    EXPECT_EQ(std::ranges::count(run.checks, name, &Check::name), 1) << name;
   EXPECT_NEAR(find_check(run, "frame rate", "camera0")->value.value(), 30, 1e-6);
   EXPECT_LT(find_check(run, "camera stayed where it was", "camera0")->value.value(), 0.1);
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string>
 
 #include "base/math.h"
 #include "tests/support/checks.h"
@@ -83,6 +84,13 @@ TEST(GapsTest, MoreThanOneInTwentyCyclesBridgedIsAnError) {
   }
 }
 
+/// What is said of the second robot.
+std::string gap_of_the_second(const TrackedRun& run) {
+  for (const Issue& issue : run.issues)
+    if (issue.code == IssueCode::Gap && issue.robot == "rvr2") return issue.text;
+  return "";
+}
+
 /// The advice follows from what is missing: frames, or the robot in them.
 TEST(GapsTest, SaysWhetherFramesAreMissingOrTheRobotInThem) {
   SeenRun dropped = seen_run(on_circle, {.cycles = 600});
@@ -91,11 +99,6 @@ TEST(GapsTest, SaysWhetherFramesAreMissingOrTheRobotInThem) {
     dropped.cut(4 * i + 0.02, 4 * i + 0.44);
     hidden.hide(2, 4 * i + 0.02, 4 * i + 0.44);
   }
-  const auto gap_of_the_second = [](const TrackedRun& run) {
-    for (const Issue& issue : run.issues)
-      if (issue.code == IssueCode::Gap && issue.robot == "rvr2") return issue.text;
-    return std::string();
-  };
   EXPECT_THAT(gap_of_the_second(dropped.track().value()),
               HasSubstr("was interpolated in 40 of 600 cycles (6.7 %, limit 5 %), in 40 of them "
                         "since frames are missing; a faster disk"));
@@ -112,12 +115,7 @@ TEST(GapsTest, NothingIsInterpolatedAcrossAWayThatNoRobotGoes) {
   SeenRun seen = seen_run(carried, {.cycles = 600});
   seen.hide(2, 29.82, 30.18);
   const TrackedRun run = seen.track().value();
-  const Issue* issue = nullptr;
-  for (const Issue& found : run.issues) {
-    if (found.robot == "rvr2" && found.code == IssueCode::Gap) issue = &found;
-  }
-  ASSERT_NE(issue, nullptr);
-  EXPECT_THAT(issue->text, HasSubstr("cannot have come"));
+  EXPECT_THAT(gap_of_the_second(run), HasSubstr("cannot have come"));
   EXPECT_EQ(count_of(run, CycleKind::Missing), 3);
   EXPECT_NEAR(run.trajectory.at(305)[1].x, carried(1, 30.6).x, 1e-4);
 }
@@ -169,9 +167,7 @@ TEST(HandPointTest, WhereTheTagWasSeenItChangesNothing) {
     for (std::size_t robot = 0; robot < run.robots.size(); ++robot)
       EXPECT_EQ(run.trajectory.at(cycle - 1)[robot], before.trajectory.at(cycle - 1)[robot]);
   }
-  const Issue* by_hand = find_issue(run, IssueCode::ByHand);
-  ASSERT_NE(by_hand, nullptr);
-  EXPECT_THAT(by_hand->text, HasSubstr("1 time at 10.60 s (A. Person)"));
+  EXPECT_THAT(issue_of(run, IssueCode::ByHand).text, HasSubstr("1 time at 10.60 s (A. Person)"));
   std::vector<std::string> odd;
   for (const Issue& issue : run.issues) {
     if (issue.code == IssueCode::FilmOdd) odd.push_back(issue.text);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/rng.h"
 #include "tests/support/checks.h"
@@ -83,6 +84,7 @@ TEST(RepeatsTest, ARecorderThatHangsToTheEndCoversNoMore) {
   for (const int moving : {2, 3}) {
     SeenRun seen = seen_run(that_stop(1000, 0, moving), kFilm);
     hold(seen, [](std::int64_t frame) { return std::min<std::int64_t>(frame, 300); });
+    if (moving == 3) seen.hide(3, 19.4, 100);  // what was not seen then says nothing
     const TrackedRun run = seen.track().value();
     EXPECT_THAT(issue_of(run, IssueCode::VideoTruncated).text, HasSubstr("hung"));
     EXPECT_NEAR(issue_of(run, IssueCode::PicturesRepeated).from.value(), 19.5, 0.01);
@@ -102,13 +104,29 @@ TEST(RepeatsTest, AFewPicturesOverAndOverAreARecorderThatHangsToo) {
 }
 
 TEST(RepeatsTest, ARecorderThatHangsForAWhileLeavesAGap) {
-  for (const int moving : {1, 3}) {
+  // In the middle, or to the last picture but one.
+  for (const auto& [moving, first] : {std::pair(1, 150), std::pair(3, 150), std::pair(3, 435)}) {
     SeenRun seen = seen_run(that_stop(1000, 0, moving), kFilm);
-    hold(seen, [](std::int64_t frame) { return frame > 150 && frame < 180 ? 150 : frame; });
+    hold(seen, [from = first](std::int64_t frame) {
+      return frame > from && frame < from + 30 ? from : frame;
+    });
     const TrackedRun run = seen.track().value();
     EXPECT_EQ(run.frames_twice, 29);
     EXPECT_NE(find_issue(run, IssueCode::Gap), nullptr);
     EXPECT_NE(find_issue(run, IssueCode::PicturesRepeated), nullptr);
+  }
+}
+
+TEST(RepeatsTest, ARecorderThatHangsBeforeOrAfterTheRunTakesNothing) {
+  for (const std::int64_t first : {15, 555}) {
+    SeenRun seen = seen_run(
+        on_circle,
+        {.cycles = 300, .frame_rate = 15, .from_s = -3, .past_end_s = 6, .noise_px = 0.05});
+    hold(seen,
+         [&](std::int64_t frame) { return frame > first && frame < first + 15 ? first : frame; });
+    const TrackedRun run = seen.track().value();
+    EXPECT_EQ(run.frames_twice, 14);
+    EXPECT_TRUE(run.issues.empty()) << run.issues.front().text;
   }
 }
 

@@ -107,12 +107,11 @@ TEST(SeveralTagsTest, LooseTagIsNamed) {
   };
   for (const double by_m : {0.02, -0.012}) {
     const TrackedRun run = two_tags(slips(by_m)).track().value();
-    const Issue* issue = find_issue(run, IssueCode::TagsDisagree);
-    ASSERT_NE(issue, nullptr) << by_m;
-    EXPECT_EQ(issue->robot, "rvr1");
-    EXPECT_THAT(issue->text, HasSubstr("rvr1 has tags 1 and 21"));
-    EXPECT_NEAR(issue->from.value(), 10, 0.6);
-    EXPECT_NEAR(issue->to.value(), 30.5, 0.5);
+    const Issue& issue = issue_of(run, IssueCode::TagsDisagree);
+    EXPECT_EQ(issue.robot, "rvr1");
+    EXPECT_THAT(issue.text, HasSubstr("rvr1 has tags 1 and 21"));
+    EXPECT_NEAR(issue.from.value(), 10, 0.6);
+    EXPECT_NEAR(issue.to.value(), 30.5, 0.5);
     EXPECT_EQ(find_check(run, kAgreement, "rvr1")->outcome, Check::Outcome::Failed);
   }
   EXPECT_EQ(find_issue(two_tags(slips(0.002)).track().value(), IssueCode::TagsDisagree), nullptr);

@@ -132,9 +132,7 @@ SeenRun leaning_run(double tilt_rad, bool leans_with_robot) {
 TEST(TagTiltTest, ATagThatIsNotLevelIsNamedWithItsAngle) {
   for (const double degrees : {4.0, -6.0}) {
     const TrackedRun run = leaning_run(degrees * kDegree, true).track().value();
-    const Issue* issue = find_issue(run, IssueCode::Tilted);
-    ASSERT_NE(issue, nullptr) << degrees;
-    EXPECT_EQ(issue->robot, "rvr2");
+    EXPECT_EQ(issue_of(run, IssueCode::Tilted).robot, "rvr2");
     EXPECT_NEAR(*find_check(run, "tilt of the tag", "rvr2")->value, std::fabs(degrees), 0.5);
     EXPECT_EQ(find_check(run, "tilt of the tag", "rvr1")->outcome, Check::Outcome::Passed);
     EXPECT_GT(run.robots[1].sigmas.back().sigma_m, 0.2 * std::sin(3.5 * kDegree));

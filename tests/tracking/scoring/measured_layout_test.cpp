@@ -188,17 +188,17 @@ TEST_F(MeasuredLayoutTest, TakesNoLightFromAPaintedFloor) {
     EXPECT_NEAR(beside_paint.at(channel), plain.at(channel), 0.05) << channel;
 }
 
-/// A robot hides 0.1 m behind it, seen from 2.7 m above, beside its own half width.
+/// A robot's shadow ends 0.242 m behind its middle, seen from 2.7 m above.
 TEST_F(MeasuredLayoutTest, TakesALookJustBeyondTheShadowOfARobot) {
   const Point robot{0.75, -0.1};  // 0.7 m from the camera's foot, along x
   const FloorPicture picture = picture_of(scene(), {}, {robot});
   const FloorLight light(picture, mission);
   const auto is_seen = [&](double behind_m) {
-    return light.ratio_of({{robot.x + behind_m, robot.y}, 0.09, 0.09}).has_value();
+    return light.ratio_of({{robot.x + behind_m, robot.y}, 0.05, 0.05}).has_value();
   };
   EXPECT_FALSE(is_seen(0));
-  EXPECT_FALSE(is_seen(0.18));
-  EXPECT_TRUE(is_seen(0.29));
+  EXPECT_FALSE(is_seen(0.235));
+  EXPECT_TRUE(is_seen(0.25));
   EXPECT_TRUE(is_seen(-0.2)) << "it hides nothing before it but its own width";
 }
 

@@ -247,12 +247,10 @@ TEST(DamagedDb3, IsRefusedByItsCause) {
       {[&](WrittenDb3& bag) {
          bag.run(
              "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 5000) INSERT "
-             "INTO "
-             "topics SELECT i, 't' || i, 'a/B', 'cdr', '' FROM n");
+             "INTO topics SELECT i, 't' || i, 'a/B', 'cdr', '' FROM n");
          bag.run(
              "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 5000) INSERT "
-             "INTO "
-             "messages SELECT i, i, i, 'x' FROM n");
+             "INTO messages SELECT i, i, i, 'x' FROM n");
        },
        "and 4992 more"},
   };
