@@ -40,11 +40,10 @@ Expected<std::string> allowed_file(const std::string& program,
     return unexpected(ErrorKind::NotFound, "there is no such program on this host", program);
   }
   if (std::ranges::find(allowed, *file) != allowed.end()) return std::move(*file);
-  return unexpected(ErrorKind::Conflict,
-                    "the campaign needs the program " + *file +
-                        ", which this worker may not run: start the worker "
-                        "with --allow " +
-                        *file);
+  return unexpected(ErrorKind::Conflict, "the campaign needs the program " + *file +
+                                             ", which this worker may not run: start the worker "
+                                             "with --allow " +
+                                             *file);
 }
 
 /// An instance as passed to programs.

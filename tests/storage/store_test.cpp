@@ -181,7 +181,7 @@ TEST_F(StoreTest, RefusesNumbersThatAreNotFinite) {
 TEST_F(StoreTest, EndsWithRowsThatItCanNeverTake) {
   auto store = begun();
   store->append({CandidateTotalsRow{.candidate = {999}, .runs = 1}});  // of no candidate
-  EXPECT_THAT(to_string(why_not(store->flush())), HasSubstr("takes no more of them"));
+  EXPECT_THAT(to_string(why_not(store->flush())), HasSubstr("so no more are written"));
 }
 
 TEST_F(StoreTest, CountsTicketsFromOneAndTellsThemInOrderBeforeFlushReturns) {

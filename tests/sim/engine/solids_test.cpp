@@ -98,6 +98,17 @@ TEST(Solids, AnObstacleOfAnyFormStopsARobotOfAnyFormAtItsFace) {
   }
 }
 
+/// Discs have their own solver.
+TEST(Solids, AFaceStopsADiscWhereverItIsHit) {
+  Arena arena = room();
+  arena.obstacles = {{.outline = BoxOutline{0.2, 1}, .pose = {0.5, 0, 0}}};
+  World world(arena, find_robot("epuck", "").value(), std::vector<Pose>{{0, 0.3, 0}},
+              ContactModel::Exact);
+  drive(world, {0.3, 0.3}, 40);
+  EXPECT_NEAR(world.body(0).x, 0.4 - world.form(0).radius_m, 0.004);
+  EXPECT_NEAR(world.body(0).y, 0.3, 0.001);
+}
+
 TEST(Solids, NearAnObstacleMotionIsFreeToTheLastBit) {
   Arena arena = room();
   arena.obstacles = {{.outline = BoxOutline{0.2, 2}, .pose = {0.5, 0, 0}}};

@@ -356,5 +356,19 @@ TEST(TravelFit, WantsTwentyFreeStepsForAHeading) {
   EXPECT_FALSE(fit_travel(steps).knows_heading);
 }
 
+TEST(TravelFit, WantsTurnsForADistanceByTurn) {
+  for (const double turn_rad : {0.001, 0.3}) {
+    std::vector<TravelStep> steps;
+    for (int i = 0; i < 40; ++i) {
+      const double turn = i % 2 == 0 ? turn_rad : -turn_rad;
+      steps.push_back(
+          {.from_s = 0.1 * i, .to_s = 0.1 * (i + 1), .ahead_m = 0.03, .turn_rad = turn});
+    }
+    const TravelFit fit = fit_travel(steps);
+    EXPECT_TRUE(fit.knows_heading) << turn_rad;
+    EXPECT_EQ(fit.knows_by_turn, turn_rad > 0.1);
+  }
+}
+
 }  // namespace
 }  // namespace swarmsmith

@@ -120,7 +120,8 @@ TEST(FrameClock, RefusesTimesThatDoNotGrow) {
 TEST(FrameClock, WantsAsManyRowsAsFrames) {
   auto clock = FrameClock::of({.name = "run.mkv"}, std::vector<double>{1, 2, 3});
   ASSERT_TRUE(clock->time_of(frame(2)));
-  EXPECT_THAT(complaint_of(clock->time_of(frame(3))), HasSubstr("E_SIDECAR_MISMATCH: the video has a frame 3"));
+  EXPECT_THAT(complaint_of(clock->time_of(frame(3))),
+              HasSubstr("E_SIDECAR_MISMATCH: the video has a frame 3"));
   EXPECT_TRUE(clock->finish(3));
   EXPECT_THAT(complaint_of(clock->finish(2)),
               HasSubstr("E_SIDECAR_MISMATCH: 2 frames in the video, 3"));

@@ -146,8 +146,7 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
     if (track.poses.empty()) continue;
     made.sigma.sigma_m = std::max(made.sigma.sigma_m, track.sigma.sigma_m);
     made.sigma.sigma_rad = std::max(made.sigma.sigma_rad, track.sigma.sigma_rad);
-    made.noise.sigma_m = std::max(made.noise.sigma_m, track.poses.front().sigma.sigma_m);
-    made.noise.sigma_rad = made.sigma.sigma_rad;
+    made.noise_m = std::max(made.noise_m, track.poses.front().sigma.sigma_m);
     motions.emplace_back(&track, Motion(track.poses, options.limits));
   }
   SWARMSMITH_ASSERT(!made.merged.empty(), "a robot that was never seen is an error before");

@@ -19,8 +19,8 @@ struct RobotTrack {
   std::vector<double> unneeded_s;  ///< the same where a camera saw its tag: not used
   /// Consecutive samples of one camera such that the second cannot be reached from the first.
   std::vector<std::pair<TimedPose, TimedPose>> breaks;
-  Scatter sigma;  ///< of one camera's sample, with systematic errors
-  Scatter noise;  ///< the same without systematic errors
+  Scatter sigma;       ///< of one camera's sample, with systematic errors
+  double noise_m = 0;  ///< the same of places, without systematic errors
   /// Number of cycles at which the measurements of two cameras are more than `kDisagree_m` apart.
   int disagreeing = 0;
   int compared = 0;  ///< number of cycles at which two cameras measured it

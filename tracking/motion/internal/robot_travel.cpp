@@ -110,11 +110,11 @@ std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track,
                      .aside_m = dy * half_way.cos - dx * half_way.sin,
                      .turn_rad = turn,
                      .turn_sigma_rad = 1.5 * track.sigma.sigma_rad,
-                     .noise_m = hypot(1.5 * track.noise.sigma_m, sigma),
+                     .noise_m = hypot(1.5 * track.noise_m, sigma),
                      .sigma_m = sigma,
                      .touches = cycle - std::max(touched, touched_before) <= kSlides});
   }
-  mark_unsteady(steps, track.noise.sigma_m);
+  mark_unsteady(steps, track.noise_m);
   return steps;
 }
 
