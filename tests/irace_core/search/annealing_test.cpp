@@ -142,7 +142,7 @@ TEST(OneParameterNeighbourhood, SaysWhenThereIsNothingElse) {
   Rng rng(4);
   const auto other = search::one_parameter_neighbourhood(space, now).perturb(now, rng);
   ASSERT_FALSE(other);
-  EXPECT_THAT(other.error().message, ::testing::HasSubstr("beside the incumbent"));
+  EXPECT_THAT(other.error().message, ::testing::HasSubstr("besides the incumbent"));
 }
 
 }  // namespace
