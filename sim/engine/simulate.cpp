@@ -454,6 +454,7 @@ class Run {
 }  // namespace
 
 int engine_version_of(const Mission& mission, const Profile& profile) {
+  if (has_own_lights(mission.robot)) return kLightVersion;
   if (can_hide(mission.arena, mission.robot)) return kSightVersion;
   const bool meets_obstacles = profile.contacts == ContactModel::Exact &&
                                !mission.arena.obstacles.empty() &&

@@ -74,8 +74,12 @@ inline constexpr int kEngineVersion = 3;
 /// simulated them in version 3; all other missions have the bits of version 3.
 inline constexpr int kObstaclesVersion = 4;
 /// The version for missions in which a body as high as the robots' camera can hide them from each
-/// other; before, they saw through everything. The next version for all missions is 6.
+/// other; before, they saw through everything.
 inline constexpr int kSightVersion = 5;
+/// The version for missions of robots with light sensors in other directions than their proximity
+/// sensors; before, control software took them to be in the same directions. The next version for
+/// all missions is 7.
+inline constexpr int kLightVersion = 6;
 
 /// The version that gives the scores of the mission under this profile.
 int engine_version_of(const Mission& mission, const Profile& profile);

@@ -4,6 +4,13 @@
 #include "base/math.h"
 
 namespace swarmsmith {
+namespace {
+
+Ring label_ring(const ProximityRing& ring) {
+  return ring_of(ring.labels_deg.empty() ? ring.rays_deg : ring.labels_deg);
+}
+
+}  // namespace
 
 Ring ring_of(const RingAngles& angles_deg) {
   SWARMSMITH_ASSERT(angles_deg.size() <= kProximitySensors, "a ring has at most eight sensors");
@@ -19,10 +26,14 @@ Ring ring_of(const RingAngles& angles_deg) {
 }
 
 std::optional<RayDirections> labels_of(const Robot& robot) {
-  const ProximityRing& ring = robot.proximity;
-  const Ring labels = ring_of(ring.labels_deg.empty() ? ring.rays_deg : ring.labels_deg);
+  const Ring labels = label_ring(robot.proximity);
   if (labels == ring_of(ProximityRing::rvr_ring())) return std::nullopt;
   return labels.directions;
+}
+
+bool has_own_lights(const Robot& robot) {
+  return !robot.light.angles_deg.empty() &&
+         ring_of(robot.light.angles_deg) != label_ring(robot.proximity);
 }
 
 }  // namespace swarmsmith

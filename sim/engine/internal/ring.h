@@ -28,8 +28,11 @@ struct Ring {
 /// bit.
 Ring ring_of(const RingAngles& angles_deg);
 
-/// The sensor directions that control software assumes for the robot's proximity and light sensors,
-/// if they are not the RVR's ring.
+/// The directions that control software assumes for the robot's proximity sensors, if they are not
+/// the RVR's ring; for its light sensors, too, unless these have directions of their own.
 std::optional<RayDirections> labels_of(const Robot& robot);
+
+/// Whether the light sensors are not where control software assumes the proximity sensors to be.
+bool has_own_lights(const Robot& robot);
 
 }  // namespace swarmsmith

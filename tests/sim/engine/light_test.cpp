@@ -6,6 +6,11 @@
 #include <vector>
 
 #include "base/math.h"
+#include "sim/control/flavour.h"
+#include "sim/control/readings.h"
+#include "sim/engine/fitting.h"
+#include "sim/engine/simulate.h"
+#include "sim/mission/mission.h"
 
 namespace swarmsmith {
 namespace {
@@ -159,6 +164,24 @@ TEST(LightRing, ALightRightAboveASensorGivesItNothing) {
   Scene scene;
   scene.arena.lights = {{.x_m = 0.143, .y_m = 0, .z_m = 1, .intensity_cd = 500}};
   EXPECT_EQ(scene.ring()[1], 0);
+}
+
+/// Control software knows where they are, and takes them for no proximity sensors.
+TEST(LightRing, OfItsOwnSaysWhereTheLightIs) {
+  Scene scene;
+  scene.arena.lights = {{.x_m = 0, .y_m = 1.5, .z_m = 0.114, .intensity_cd = 500}};
+  Robot robot = rvr();
+  robot.light.angles_deg = {0, 90, 180, 270};
+  const World world(scene.arena, robot, scene.poses, ContactModel::Box2d);
+  std::vector<int> room;
+  const LightReadings lux = light_ring(world, scene.arena, 0, room);
+  const Vector2 light = light_vector(lux, fitted(**find_flavour("chocolate"), robot).light);
+  EXPECT_NEAR(atan2(light.y, light.x), kPi / 2, 1e-9);
+
+  Mission mission = built_in_mission("aggregation").value();
+  EXPECT_EQ(engine_version_of(mission, {}), kEngineVersion);
+  mission.robot = robot;
+  EXPECT_EQ(engine_version_of(mission, {}), kLightVersion);
 }
 
 }  // namespace
