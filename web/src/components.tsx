@@ -1,6 +1,6 @@
 import { Component, h } from "preact";
 import { ApiError, feed, is_snapshot, Pending, token } from "./api";
-import { clamp, csv, in_order, is_known, number, percent, shell_word, when, whole, words } from "./format";
+import { clamp, count, csv, in_order, is_known, number, percent, shell_word, when, whole, words } from "./format";
 import { current_route, href, Query, set_query } from "./route";
 import { Campaign } from "./types";
 
@@ -316,7 +316,7 @@ export function Table<Row>({ name, caption, columns: given, rows, row_key, row_c
   return <div>
     {(rows.length > 8 || filter) && <div class="tools">
       <input type="search" placeholder="filter" aria-label={`filter: ${caption}`} value={filter} onInput={(event) => set("q", typed(event))} />
-      <span class="faint" role="status">{filter ? `${whole(matching.length)} of ${whole(rows.length)}` : `${whole(rows.length)} rows`}</span>
+      <span class="faint" role="status">{filter ? `${whole(matching.length)} of ${whole(rows.length)}` : count(rows.length, "row")}</span>
       <Quiet label={`CSV: ${caption}`} act={() => save_as(caption.replace(/\W+/g, "-") + ".csv",
         csv([columns.map((one) => one.key), ...matching.map((row) => columns.map((column) => value_of(column, row)))]))}>CSV</Quiet>
     </div>}

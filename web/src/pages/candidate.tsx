@@ -3,7 +3,7 @@
 import { h } from "preact";
 import { command, Copy, Empty, link, pairs, Panel, place_of, store_word, Table } from "../components";
 import { Machine } from "../figure";
-import { id_of, number, whole, words } from "../format";
+import { count, id_of, number, whole, words } from "../format";
 import { Get } from "../get";
 import { PageProps } from "../page";
 import { href } from "../route";
@@ -57,7 +57,7 @@ function shown(c: string, { candidate: one, ancestors, scores, later }: Answer) 
         <h3>Ancestors</h3>
         {ancestors.length === 0 ? <p class="faint">None{one.iteration > 0 && ": it was drawn from the whole space"}{one.parent !== null && `, its parent ${id_of("c", one.parent)} is not in the store`}.</p>
           : <ol class="ancestors">{ancestors.map(({ candidate, iteration, mean, runs }) => <li>{link(id_of("c", candidate)!)}
-            <span class="faint"> iteration {iteration}, mean {number(mean)} of {whole(runs)} runs</span></li>)}</ol>}
+            <span class="faint"> iteration {iteration}, mean {number(mean)} of {count(runs, "run")}</span></li>)}</ol>}
       </Panel>
       <Panel title="Control software">
         <Machine of={id} missing={<Empty>This candidate is not a machine, tree or network: it has only parameters.</Empty>} />

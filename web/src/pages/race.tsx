@@ -238,7 +238,7 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
           <span class="faint">{until < last ? `as it was then; ${count(last - until, "later step")} hidden` : count(last + 1, "step")}</span>
         </div>
         <RaceMap matrix={matrix} until={until} cell={cell} pick={pick} watch={watch}
-          label={`${title} of ${id}: ${candidates.length} candidates, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
+          label={`${title} of ${id}: ${count(candidates.length, "candidate")}, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
         <ul class="legend">{kLegend.map(([mark, what]) => <li><span class={"swatch " + mark} /> {what}</li>)}</ul>
         {rows_total > candidates.length && <p class="faint">The best {whole(candidates.length)} of {whole(rows_total)} candidates. <Quiet act={() => set_query({ rows: rows_total })}>Show all</Quiet></p>}
       </Panel>

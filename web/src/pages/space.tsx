@@ -165,7 +165,7 @@ class Parallel extends Component<ParallelProps, ParallelState> {
               attributes={{ onPointerDown: this.#down, onPointerMove: this.#move, onPointerUp: this.#up, onPointerLeave: () => this.setState({ met: null }) }} />
           </div></div>}
         <p class="small" role="status">{met === null ? <span class="faint">Drag along an axis to choose a range; click it for all values. Click a line to open its candidate.</span>
-          : `c${candidates[met]}: iteration ${data.iteration[met]}, mean ${number(data.mean[met])} of ${whole(data.runs[met])} runs${data.elite[met] ? ", an elite" : ""}`}</p>
+          : `c${candidates[met]}: iteration ${data.iteration[met]}, mean ${number(data.mean[met])} of ${count(data.runs[met], "run")}${data.elite[met] ? ", an elite" : ""}`}</p>
         <details><summary>Parameters: {whole(axes.length)} of {whole(names.length)}</summary>
           <div class="boxes">{names.map((name) => <label><input type="checkbox" checked={shown.includes(name)}
             onChange={() => this.#show(names.filter((other) => shown.includes(other) !== (other === name)))} /> {name}</label>)}</div></details>
