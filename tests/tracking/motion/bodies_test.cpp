@@ -32,6 +32,16 @@ TEST(BodiesTest, ThatTouchAreNoNews) {
   EXPECT_LT(check->value.value(), 6);
 }
 
+/// The thesis' robots are rounder than the squares of its simulator.
+TEST(BodiesTest, MayHaveRoundCorners) {
+  const auto corner_to_corner = [](int robot, double) {
+    return robot == 2 ? Pose{0, 0.6, 0} : Pose{robot == 0 ? -0.135 : 0.135, -0.4, kPi / 4};
+  };
+  const TrackedRun run = pressed_run(BoxOutline{0.286, 0.286}, corner_to_corner).track().value();
+  EXPECT_EQ(find_issue(run, IssueCode::BodiesOverlap), nullptr);
+  EXPECT_NEAR(find_check(run, kBodies, "")->value.value(), 16, 2);
+}
+
 TEST(BodiesTest, AreTooLargeWhenTheyAreInsideEachOtherAllTheTime) {
   struct Row {
     Outline body;

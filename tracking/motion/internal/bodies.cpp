@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "base/assert.h"
@@ -17,8 +18,8 @@
 namespace swarmsmith {
 namespace {
 
-/// Bodies may be this deep in each other: walls give way, corners are round, and survey, heights
-/// and offsets have errors.
+/// Bodies may be this deep in each other: walls give way, and survey, heights and offsets have
+/// errors.
 constexpr double kDeep_m = 0.03;
 /// Depths that last shorter than this in all are not counted: a wrong sample, or a carried robot.
 constexpr int kLeastCycles = 10;
@@ -103,12 +104,29 @@ struct Pair {
   }
 };
 
+/// The largest disc around the centre of a body that lies in it. Only discs are compared: where two
+/// corners meet, real robots may be rounder than their outline.
+Outline disc_within(const Outline& outline) {
+  const Footprint body(outline, {});
+  const std::span<const Point> corners = body.corners();
+  if (corners.empty()) return outline;
+  double radius_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point& from = corners[i];
+    const Point& to = corners[(i + 1) % corners.size()];
+    const double dx = to.x - from.x;
+    const double dy = to.y - from.y;
+    radius_m = std::min(radius_m, std::fabs(from.x * dy - from.y * dx) / hypot(dx, dy));
+  }
+  return CircleOutline{radius_m};
+}
+
 /// All robots that were measured in a cycle, against all that they may touch.
 class Bodies {
  public:
   Bodies(const std::vector<RobotTrack>& tracks, const Arena& arena, const Outline& outline,
          const TrackedRun& run)
-      : tracks_(tracks), arena_(arena), outline_(outline), run_(run) {
+      : tracks_(tracks), arena_(arena), disc_(disc_within(outline)), run_(run) {
     for (const Obstacle& obstacle : arena.obstacles)
       obstacles_.emplace_back(obstacle.outline, obstacle.pose);
   }
@@ -150,12 +168,12 @@ class Bodies {
   }
 
   Footprint body_of(std::size_t robot, int cycle) const {
-    return {outline_, run_.trajectory.at(cycle - 1)[robot]};
+    return {disc_, run_.trajectory.at(cycle - 1)[robot]};
   }
 
   const std::vector<RobotTrack>& tracks_;
   const Arena& arena_;
-  const Outline& outline_;
+  Outline disc_;
   const TrackedRun& run_;
   std::vector<Footprint> obstacles_;
 };
