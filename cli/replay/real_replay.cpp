@@ -11,6 +11,7 @@
 #include "base/text/csv.h"
 #include "cli/output/progress_text.h"
 #include "sim/control/module.h"
+#include "sim/mission/footprint.h"
 #include "sim/mission/trajectory_csv.h"
 
 namespace swarmsmith::cli {
@@ -39,14 +40,14 @@ ShownRun shown(const RealRunRows& rows, const FilmedRun& filmed, double score) {
 /// Whether a simulated swarm can start there: as many robots as in the mission, within the walls,
 /// without overlaps.
 bool can_start(const Mission& mission, const std::vector<Pose>& starts) {
+  const double near_m = Footprint(mission.robot.body.outline, {}).inner_radius_m();
   if (starts.size() != static_cast<std::size_t>(mission.robots)) return false;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const Point here{starts[i].x, starts[i].y};
     if (!is_inside(mission.arena, here)) return false;
     for (std::size_t k = 0; k < i; ++k) {
-      // Robots are squares or discs: if their centres are closer than half a side, they certainly
-      // overlap.
-      if (std::hypot(starts[k].x - here.x, starts[k].y - here.y) < kBodySide_m / 2) return false;
+      // Robots that are so near certainly overlap, whatever the errors of the film.
+      if (std::hypot(starts[k].x - here.x, starts[k].y - here.y) < near_m) return false;
     }
   }
   return true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/assert.h"
 #include "base/math.h"
@@ -79,6 +80,19 @@ void Footprint::add_corner(Point own, double cos, double sin) {
   SWARMSMITH_ASSERT(count_ < corners_.size(), "an outline has at most 8 corners");
   corners_[count_++] = {centre_.x + own.x * cos - own.y * sin,
                         centre_.y + own.x * sin + own.y * cos};
+}
+
+double Footprint::inner_radius_m() const {
+  if (count_ == 0) return radius_m_;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Point from = corners_[i];
+    const Point to = corners_[(i + 1) % count_];
+    const double twice_area =
+        (to.x - from.x) * (centre_.y - from.y) - (to.y - from.y) * (centre_.x - from.x);
+    least = std::min(least, twice_area / distance(from, to));
+  }
+  return least;
 }
 
 Footprint::Extent Footprint::along(double x, double y) const {

@@ -20,6 +20,9 @@ class Footprint {
   std::span<const Point> corners() const { return {corners_.data(), count_}; }
   double radius_m() const { return radius_m_; }  ///< for a circle, else 0
 
+  /// Radius of the largest disc around the centre that lies in the footprint.
+  double inner_radius_m() const;
+
   /// Extent along the unit vector (x, y): p . (x, y) is between `least` and `most` for all its
   /// points p.
   struct Extent {

@@ -19,9 +19,13 @@ namespace {
 
 using nlohmann::json;
 
+Mission demo() {
+  return one_design_campaign().missions.front().mission;
+}
+
 /// A filmed run of the demo's winner that a simulator made up: its trajectory, and its score.
-RealRunRows filmed(std::uint64_t number, CandidateId candidate) {
-  MissionEntry entry{.mission = one_design_campaign().missions.front().mission};
+RealRunRows filmed(std::uint64_t number, CandidateId candidate, const Mission& mission = demo()) {
+  MissionEntry entry{.mission = mission};
   entry.mission.cycles = 100;
   const Machine machine = *parse_machine(kExploreText, watermelon());
   const auto seed = static_cast<std::int64_t>(number);
@@ -122,6 +126,16 @@ TEST_F(RealRuns, AreReplayedBesideSimulationsFromTheSameStarts) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * 101 * 3);
   EXPECT_EQ(run({"replay", "r1", store_, "--beside", "2", "--svg", file("again.svg")}).code, 0);
   EXPECT_NE(content("again.svg"), svg);
+}
+
+TEST_F(RealRuns, OfSmallRobotsAreReplayedFromStartsNearEachOther) {
+  Mission mission = demo();
+  mission.robot = rvr_with(CircleOutline{0.035});
+  mission.placement = PlaceAt{{{0, 0, 0}, {0.1, 0, 1}, {0, 0.1, 2}}};
+  add(filmed(3, candidate_id({1}, 1), mission));
+  const json answer =
+      json::parse(run_well({"replay", "r3", store_, "--beside", "1", "--json"}).out);
+  EXPECT_EQ(answer["starts_as_real"], true);
 }
 
 TEST_F(RealRuns, AreReplayedAloneAndDrawnWithoutACandidate) {

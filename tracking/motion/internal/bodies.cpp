@@ -7,7 +7,6 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "base/assert.h"
@@ -104,29 +103,17 @@ struct Pair {
   }
 };
 
-/// The largest disc around the centre of a body that lies in it. Only discs are compared: where two
-/// corners meet, real robots may be rounder than their outline.
-Outline disc_within(const Outline& outline) {
-  const Footprint body(outline, {});
-  const std::span<const Point> corners = body.corners();
-  if (corners.empty()) return outline;
-  double radius_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Point& from = corners[i];
-    const Point& to = corners[(i + 1) % corners.size()];
-    const double dx = to.x - from.x;
-    const double dy = to.y - from.y;
-    radius_m = std::min(radius_m, std::fabs(from.x * dy - from.y * dx) / hypot(dx, dy));
-  }
-  return CircleOutline{radius_m};
-}
-
-/// All robots that were measured in a cycle, against all that they may touch.
+/// All robots that were measured in a cycle, against all that they may touch. Robots are compared
+/// as the largest discs that lie in their outline: where two corners meet, real robots may be
+/// rounder.
 class Bodies {
  public:
   Bodies(const std::vector<RobotTrack>& tracks, const Arena& arena, const Outline& outline,
          const TrackedRun& run)
-      : tracks_(tracks), arena_(arena), disc_(disc_within(outline)), run_(run) {
+      : tracks_(tracks),
+        arena_(arena),
+        disc_(CircleOutline{Footprint(outline, {}).inner_radius_m()}),
+        run_(run) {
     for (const Obstacle& obstacle : arena.obstacles)
       obstacles_.emplace_back(obstacle.outline, obstacle.pose);
   }
