@@ -8,7 +8,7 @@ namespace swarmsmith {
 namespace {
 
 void write_campaigns(ReportDraft& draft) {
-  draft.table("Campaigns (v_campaigns). The digest is that of all that decides the answer.",
+  draft.table("Campaigns (v_campaigns). Each digest covers everything that decides the answer.",
               {{"campaign"},
                {"seed", Show::Count},
                {"digest"},
