@@ -406,7 +406,7 @@ class BadInput(unittest.TestCase):
                 (three, point(500), r'is at 500\.00 s, but the run goes'),
                 ('robots = ["rvr1", "rvr2"]\n', point(1, "rvr3"), r'`robots` leaves out "rvr3"; it has: rvr1, rvr2'),
                 ('robots = ["rvr1", "rvr2"]\n', '[[robot]]\nname = "rvr3"\nverdict = "VALID"\n',
-                 r'`robots` leaves out "rvr3", .* take out its \[\[robot\]\]'),
+                 r'`robots` leaves out "rvr3"; .* take out its \[\[robot\]\]'),
                 ('robots = ["rvr1", "rvr2", "rvr3", "rvr2"]\n', "", r'`robots` has "rvr2" twice')):
             log = self.changed_log(LAB.film("good"))
             text = re.sub(r"^robots = .*\n", "", log.read_text(), flags=re.M)
@@ -444,7 +444,7 @@ class BadInput(unittest.TestCase):
             self.assertEqual(base.execute("SELECT scorings FROM v_real_runs").fetchall(), [(2,)])
         known = self.score(good, "--start", "1.5 s")
         self.assertEqual(known.returncode, 0, known.stderr)
-        self.assertIn("stored already, as r1", known.stdout)
+        self.assertIn("already stored, as r1", known.stdout)
         self.assertEqual(self.score(good).returncode, 3)
         for words in (("--start", "soon"), ("--start", "1", "--sync-hidden", "99")):
             done = call(TRACK, "rescore", "r1", "--store", self.store, *words)
