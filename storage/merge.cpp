@@ -126,8 +126,9 @@ void warn_of_same_films(const Connection& connection, const fs::path& store, std
     const RealRunId earlier{same.integer(1)};
     warnings.push_back(fmt::format(
         "{}: its real run r{} (now {}) is of the film of {}, {}, with another start; if they are "
-        "one run, `swarmsmith track override {} --verdict invalid` leaves one out of the "
-        "statistics",
+        "one run, `swarmsmith track override {} --verdict invalid --who NAME --reason TEXT` leaves "
+        "one out "
+        "of the statistics",
         store.string(), same.integer(0), to_string(own), to_string(earlier), same.text(2),
         to_string(own)));
   }

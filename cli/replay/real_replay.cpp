@@ -40,7 +40,7 @@ ShownRun shown(const RealRunRows& rows, const FilmedRun& filmed, double score) {
 /// Whether a simulated swarm can start there: as many robots as in the mission, within the walls,
 /// without overlaps.
 bool can_start(const Mission& mission, const std::vector<Pose>& starts) {
-  const double near_m = Footprint(mission.robot.body.outline, {}).inner_radius_m();
+  const double near_m = inradius_of(mission.robot.body.outline);
   if (starts.size() != static_cast<std::size_t>(mission.robots)) return false;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const Point here{starts[i].x, starts[i].y};

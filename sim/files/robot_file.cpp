@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/assert.h"
-#include "base/math.h"
-#include "base/overloaded.h"
 #include "base/plain_text.h"
 #include "base/suggestion.h"
 #include "base/text/document.h"
@@ -19,6 +16,7 @@
 #include "sim/files/internal/field_reader.h"
 #include "sim/files/internal/field_writer.h"
 #include "sim/files/mission_file.h"
+#include "sim/mission/footprint.h"
 #include "sim/robot/idle_fields.h"
 
 namespace swarmsmith {
@@ -33,26 +31,6 @@ Robot built_in_robot(std::string_view name) {
   auto robot = parse_robot(built_in_robot_text(name), std::string(name) + ".toml");
   SWARMSMITH_ASSERT(robot.has_value(), "the robots that the program carries can be read");
   return std::move(*robot);
-}
-
-double inradius_of(const std::vector<Point>& corners) {
-  double least_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Point& from = corners[i];
-    const Point& to = corners[(i + 1) % corners.size()];
-    const double length_m = hypot(to.x - from.x, to.y - from.y);
-    least_m = std::min(least_m, std::fabs(from.x * to.y - from.y * to.x) / length_m);
-  }
-  return least_m;
-}
-
-/// Radius of the largest circle around the centre within the body.
-double inradius_of(const Outline& outline) {
-  return std::visit(
-      Overloaded{[](const CircleOutline& circle) { return circle.radius_m; },
-                 [](const BoxOutline& box) { return std::min(box.length_m, box.width_m) / 2; },
-                 [](const PolygonOutline& polygon) { return inradius_of(polygon.corners); }},
-      outline);
 }
 
 /// Complains about a key of a device, or about the device if the key comes from the base.

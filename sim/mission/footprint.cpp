@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "base/assert.h"
 #include "base/math.h"
@@ -82,19 +83,6 @@ void Footprint::add_corner(Point own, double cos, double sin) {
                         centre_.y + own.x * sin + own.y * cos};
 }
 
-double Footprint::inner_radius_m() const {
-  if (count_ == 0) return radius_m_;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < count_; ++i) {
-    const Point from = corners_[i];
-    const Point to = corners_[(i + 1) % count_];
-    const double twice_area =
-        (to.x - from.x) * (centre_.y - from.y) - (to.y - from.y) * (centre_.x - from.x);
-    least = std::min(least, twice_area / distance(from, to));
-  }
-  return least;
-}
-
 Footprint::Extent Footprint::along(double x, double y) const {
   const double middle = centre_.x * x + centre_.y * y;
   if (count_ == 0) return {middle - radius_m_, middle + radius_m_};
@@ -106,6 +94,23 @@ Footprint::Extent Footprint::along(double x, double y) const {
     extent.most = std::max(extent.most, at);
   }
   return extent;
+}
+
+double inradius_of(const Outline& outline) {
+  const auto of_polygon = [](const PolygonOutline& polygon) {
+    double least_m = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+      const Point from = polygon.corners[i];
+      const Point to = polygon.corners[(i + 1) % polygon.corners.size()];
+      least_m = std::min(least_m, std::fabs(from.x * to.y - from.y * to.x) / distance(from, to));
+    }
+    return least_m;
+  };
+  return std::visit(
+      Overloaded{[](const CircleOutline& circle) { return circle.radius_m; },
+                 [](const BoxOutline& box) { return std::min(box.length_m, box.width_m) / 2; },
+                 of_polygon},
+      outline);
 }
 
 bool overlap(const Footprint& a, const Footprint& b) {

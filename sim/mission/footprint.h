@@ -20,9 +20,6 @@ class Footprint {
   std::span<const Point> corners() const { return {corners_.data(), count_}; }
   double radius_m() const { return radius_m_; }  ///< for a circle, else 0
 
-  /// Radius of the largest disc around the centre that lies in the footprint.
-  double inner_radius_m() const;
-
   /// Extent along the unit vector (x, y): p . (x, y) is between `least` and `most` for all its
   /// points p.
   struct Extent {
@@ -39,6 +36,9 @@ class Footprint {
   std::size_t count_ = 0;
   double radius_m_ = 0;
 };
+
+/// Radius of the largest circle around the centre of mass within the outline.
+double inradius_of(const Outline& outline);
 
 /// Whether two solids overlap.
 bool overlap(const Footprint& a, const Footprint& b);

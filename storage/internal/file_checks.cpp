@@ -125,7 +125,7 @@ std::string kind_of_shared(long type, std::string_view name) {
 
 std::string shared_file_system(const std::filesystem::path& path) {
   std::filesystem::path place = path;
-  std::string shown;  // by which program, if the file system is another folder's
+  std::string shown;  // names the FUSE program if it shows a folder of another file system
   // If a folder is mounted over itself, the folder below cannot be examined.
   constexpr int kMostLayers = 8;
   for (int layer = 0; layer < kMostLayers; ++layer) {

@@ -33,7 +33,7 @@ TEST(Address, OfThisHostAloneIsKnown) {
   for (const char* host :
        {"127.0.0.1", "127.8.0.1", "::1", "0:0::1", "localhost", "::ffff:127.0.0.1"})
     EXPECT_TRUE(is_loopback(host)) << host;
-  // Also names of somebody else's, not numbers.
+  // Names of another host, too, not numbers.
   for (const char* host : {"0.0.0.0", "*", "::", "10.0.0.1", "127.example.org",
                            "localhost.example.org", "::2", "fd00::1", "::ffff:10.0.0.1"})
     EXPECT_FALSE(is_loopback(host)) << host;

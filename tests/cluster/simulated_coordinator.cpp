@@ -209,7 +209,7 @@ void SimulatedCluster::check_leases() {
     for (const PackedKey key : load.leases) {
       const TaskRecord& record = *leases.find(key);
       const bool is_second = record.second && record.second->worker == number;
-      if (is_second == (record.lease->worker == number)) fail("a lease of somebody else");
+      if (is_second == (record.lease->worker == number)) fail("a lease of another worker");
       if (is_second && (record.task.ahead || record.alone)) fail("a copy that is not needed");
       if (record.task.ahead) ++ahead;
       if (!record.task.ahead && !is_second) ++wanted;

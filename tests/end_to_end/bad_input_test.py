@@ -288,7 +288,7 @@ class BadStore(BadInput):
         store = self.store()
         self.folder.chmod(0o700)
         if os.geteuid() != 0:
-            self.skipTest("skipped: only root can become somebody else")
+            self.skipTest("skipped: only root can become another user")
         for words in (("check", self.file), ("run", self.file, "--store", store), ("status", store),
                       ("init", self.folder / "new.toml"), ("profile", "rvr", "-o", self.folder / "p.toml"),
                       ("pause", store), ("report", store, "-o", self.folder / "r.html"),

@@ -1,4 +1,4 @@
-"""What `verify` finds by evaluating again: stores that somebody changed by hand."""
+"""What `verify` finds by evaluating again: stores that were changed by hand."""
 import contextlib
 import json
 import sqlite3
@@ -29,7 +29,7 @@ class Verify(ProgramTest):
             self.store.write_bytes(type(self).kept)
 
     def change(self, sql):
-        """By somebody who knows of the sums over rows."""
+        """By a person who knows of the sums over rows."""
         with contextlib.closing(sqlite3.connect(self.store)) as db, db:
             self.assertGreater(db.execute(sql).rowcount, 0, sql)
             db.execute("DELETE FROM meta WHERE key = 'row_sums'")

@@ -109,8 +109,8 @@ std::vector<Call> run(Race& race, const Recorded& recorded) {
   return calls;
 }
 
-/// How many tasks can be compared. irace 3.5 loses track of who spent which time once somebody has
-/// been dropped (it counts columns among those alive): bounds that add up a candidate's times are
+/// How many tasks can be compared. irace 3.5 loses track of who spent which time once a candidate
+/// was dropped (it counts columns among those alive): bounds that add up a candidate's times are
 /// its own only until the task after the first drop.
 std::size_t comparable_tasks(const nlohmann::json& json) {
   const auto& tasks = json["tasks"];

@@ -1,4 +1,4 @@
-"""Stores that somebody has made so that reading them is much work: a few bytes that become many, rows without an end, numbers
+"""Stores that were made so that reading them is much work: a few bytes that become many, rows without an end, numbers
 and texts that no store of ours has. Each is a change of a finished store, by its connection."""
 import contextlib
 import os

@@ -1,5 +1,5 @@
 """Schemas that are not ours, and look it more or less: what a store has besides, instead or in another way. Each has the
-name of the object by which it can be told."""
+name of the object that shows which one it is."""
 import contextlib
 import re
 import sqlite3

@@ -273,7 +273,7 @@ def full_disk(life):
 
 
 def second_user(life):
-    """Somebody else tries."""
+    """Another user tries."""
     if life.test.programs is None:
         raise NotHere("another user needs root and setpriv")
     life.run()
@@ -296,7 +296,7 @@ def hard_link(life):
 
 
 def another_store_in_its_place(life):
-    """Somebody puts an older one there, of another campaign, tries it, and puts ours back."""
+    """A person puts an older one there, of another campaign, tries it, and puts ours back."""
     life.at_rest()
     if not life.store.exists():
         return

@@ -51,7 +51,7 @@ def why_not():
         if not _program(program):
             return f"{program} of Debian's package {package} is missing"
     if os.geteuid() != 0:
-        return "only root may run an sshd that lets somebody in"
+        return "only root may run an sshd that lets users in"
     return None
 
 

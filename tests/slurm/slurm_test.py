@@ -85,7 +85,7 @@ class Refusals(SlurmTest):
     def test_a_full_cluster_is_waited_for(self):
         blocker = self.slurm.call("sbatch", "--parsable", "--cpus-per-task=2", "--wrap",
                                   "exec sleep 600")
-        wait_for(lambda: blocker in self.running(), "the job of somebody else")
+        wait_for(lambda: blocker in self.running(), "the job of another user")
         process = self.run_on_slurm(workers="slurm:1x2")
         wait_for(lambda: self.slurm.jobs("PENDING"), "our job in the queue")
         self.assertIsNone(process.poll())

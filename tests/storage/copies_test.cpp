@@ -283,8 +283,10 @@ TEST_F(MergeTest, WarnsOfAFilmWithSeveralStarts) {
   ASSERT_TRUE(written) << to_string(written.error());
   const auto merged = value_of(merge_stores({b, c}, folder / "all.db", kUnwatched));
   EXPECT_THAT(merged.warnings,
-              ElementsAre(AllOf(HasSubstr("c.db: its real run r3 (now r6) is of the film of r2, "),
-                                HasSubstr("with another start"), HasSubstr("track override r6"))));
+              ElementsAre(AllOf(
+                  HasSubstr("c.db: its real run r3 (now r6) is of the film of r2, "),
+                  HasSubstr("with another start"),
+                  HasSubstr("track override r6 --verdict invalid --who NAME --reason TEXT"))));
 }
 
 TEST_F(MergeTest, MergedStoresCanBeMergedAndTheOrderDoesNotChangeTheDigest) {

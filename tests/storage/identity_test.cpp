@@ -140,14 +140,14 @@ TEST_F(IdentityTest, ARenamedStoreIsSaved) {
 
 TEST_F(IdentityTest, AReplacedStoreIsSavedAndWhatHasItsNameIsLeftAlone) {
   const fs::path other = folder / "other";
-  std::ofstream(other) << "somebody's text";
+  std::ofstream(other) << "another file";
   expect_saved(
       [&] {
         fs::rename(other, path);
         fs::create_hard_link(path, other);
       },
       "the store was deleted, and another file has its name, while");
-  EXPECT_EQ(whole_file(other), "somebody's text");
+  EXPECT_EQ(whole_file(other), "another file");
 }
 
 TEST_F(IdentityTest, AStoreWithoutItsLogIsSaved) {

@@ -245,7 +245,7 @@ TEST_F(OpeningTest, LooksAtEveryPageAfterAnUncleanEnd) {
 }
 
 TEST_F(OpeningTest, ReadsAStoreInAFolderThatMayNotBeWritten) {
-  if (::geteuid() != 0) GTEST_SKIP() << "needs root, to become somebody else";
+  if (::geteuid() != 0) GTEST_SKIP() << "needs root, to become another user";
   fill_store(path, campaign);
   const std::string wanted = digest_of(path);
   std::filesystem::remove(path.string() + "-wal");

@@ -210,7 +210,7 @@ void HostilePeer::guess_results() {
   message.mutable_results()->set_scenario(scenario_);
   for (int i = 0; i < 20; ++i) {
     pb::Result& result = *message.mutable_results()->add_results();
-    // Somebody else's task, as it was sent once, or one that was never sent.
+    // Another worker's task, as it was sent once, or one that was never sent.
     *result.mutable_key() = guess();
     result.set_attempt(rng_.uniform_int(0, 3));
     lie(result);

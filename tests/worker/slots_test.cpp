@@ -28,7 +28,7 @@ TEST(Slots, AWorkerInAJobNamesNodeAndJob) {
   setenv("SLURM_JOB_ID", "17", 1);
   EXPECT_EQ(identity_of_this_process(1, "1.0").host, "n3");
   EXPECT_EQ(identity_of_this_process(1, "1.0").job, "17");
-  // An element of an array has a job id of its own, by which no person knows it.
+  // An element of an array has a job id of its own, which no person knows.
   setenv("SLURM_ARRAY_JOB_ID", "12", 1);
   setenv("SLURM_ARRAY_TASK_ID", "4", 1);
   EXPECT_EQ(identity_of_this_process(1, "1.0").job, "12_4");

@@ -12,7 +12,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The factor by which the board could be enlarged; if it is below 1, the board does not fit.
+/// How many times as large the board could be; below 1, the board does not fit.
 double room_for(const Board& board, const Paper& paper) {
   const PrintedArea area = printed_area(paper);
   return std::min(area.width / (1000 * board.width_m()), area.height / (1000 * board.height_m()));

@@ -33,7 +33,7 @@ struct Place {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // The path by which this program was called, with links resolved; /proc may not be mounted.
+  // The path of this program as it was called, with links resolved. It does not need /proc.
   char self[PATH_MAX];
   const auto* called = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
   if (called == nullptr || realpath(called, self) == nullptr) {

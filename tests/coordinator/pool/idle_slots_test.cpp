@@ -186,7 +186,7 @@ TEST_F(IdleSlots, StopNoCampaignForLookAheadThatFails) {
   answer(1, 1, 0, "not a number", 1);
   rule_rejected(1);
   EXPECT_TRUE(all<StopCampaign>().empty());
-  EXPECT_EQ(given[1].size(), 1U) << "it waits until somebody wants it";
+  EXPECT_EQ(given[1].size(), 1U) << "it waits until a worker asks for it";
   want(1, 1);
   EXPECT_EQ(given[1].size(), 2U);
   answer(1, 1, 0, "not a number", 2);

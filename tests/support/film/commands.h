@@ -48,8 +48,8 @@ struct FilmWish {
   double second_moved_m = 0;           ///< robot 1's second tag since it was calibrated
   std::vector<int> hidden_references;  ///< floor tags that something lies on
   bool robot_logs = false;             ///< each robot writes a log of what it commanded
-  /// Somebody else's sidecar with `clock_s`, which says when frames are taken, and the run's start
-  /// on that clock. Then neither sidecar nor run log is written.
+  /// Another program's sidecar with `clock_s`, which says when frames are taken, and the run's
+  /// start on that clock. Then neither sidecar nor run log is written.
   std::string camera_clock;
   double start_clock_s = 0;
   double second_ahead_s = 0.37;  ///< clock of the second camera minus the first's

@@ -22,7 +22,7 @@ struct RecordedRun {
   /// not freeze there.
   std::vector<std::vector<Pose>> poses;
   double step_s = 0.1;  ///< from one of those to the next
-  /// What ran; empty of a run that somebody else recorded.
+  /// What ran; empty for a run that another laboratory recorded.
   std::string machine;
   std::string flavour;
   std::optional<double> latency_s;  ///< from command to treads; none when it varies
@@ -44,8 +44,8 @@ struct RunWish {
   /// Poses of each step of the simulator, 10 ms: the film has its motion between control cycles,
   /// too. The run is not the one that the seed gives without it.
   bool every_step = false;
-  /// A trajectory that somebody else recorded, as CSV, in place of machine and profile; the seed is
-  /// that of its patches.
+  /// A trajectory that another laboratory recorded, as CSV, in place of machine and profile; the
+  /// seed is that of its patches.
   std::string trajectory;
 };
 

@@ -35,7 +35,7 @@ struct ShotFrame {
 /// The first and the last frame always arrive, so that a clip covers what it shall.
 std::vector<ShotFrame> frames_of(const Schedule& schedule, Rng rng);
 
-/// Frames when somebody else's sidecar has them, by its column `clock_s`, on which the run starts
+/// Frames when another program's sidecar has them, by its column `clock_s`, on which the run starts
 /// at `start_clock_s`. Throws std::runtime_error when it is none.
 std::vector<ShotFrame> frames_of_clock(const std::string& sidecar, double start_clock_s);
 

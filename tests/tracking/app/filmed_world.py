@@ -1,4 +1,4 @@
-"""A run that somebody else made, filmed afterwards by the virtual camera at the instants at which a camera had recorded.
+"""A run that another laboratory made, filmed afterwards by the virtual camera at the instants at which a camera had recorded.
 
 The camera's clock is CLOCK_MONOTONIC of this host, as `swarmsmith track record` writes it beside the frames.
 """

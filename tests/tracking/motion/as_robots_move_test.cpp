@@ -35,7 +35,7 @@ class Driven {
     bool spins = false;  ///< turns on the spot half of the time
     bool backwards = false;
     bool bends = false;    ///< turns while it drives, to the left
-    double grip_m_s2 = 0;  ///< by which a body's speed comes to that of its treads; 0: at once
+    double grip_m_s2 = 0;  ///< how fast a body takes its treads' speed; 0: at once
   };
 
   Driven(const Style& style, std::vector<Push> pushes, double seconds = 62) : seconds_(seconds) {

@@ -219,7 +219,7 @@ TEST(CameraMovedTest, IsAskedForAtTheEndAsWell) {
   const TrackedRun run = seen.track().value();
   const Issue& issue = issue_of(run, IssueCode::CameraUnchecked);
   EXPECT_THAT(issue.text, HasSubstr("saw none of its floor tags after 15.0 s"));
-  // Some seconds behind somebody's back are none.
+  // A cover of some seconds is no reason.
   SeenRun short_while = seen_run(on_circle, {.cycles = 300});
   cover_references(short_while, 100, 23);
   EXPECT_TRUE(short_while.track()->issues.empty());

@@ -107,7 +107,7 @@ TEST(GapsTest, SaysWhetherFramesAreMissingOrTheRobotInThem) {
                         "since frames are missing; more light"));
 }
 
-/// A robot that somebody carried: both parts of its track are its own, and nothing lies between.
+/// A robot that a person carried: both parts of its track are its own, and nothing lies between.
 TEST(GapsTest, NothingIsInterpolatedAcrossAWayThatNoRobotGoes) {
   const Truth carried = [](int robot, double time_s) {
     return on_circle(robot, robot != 1 || time_s < 30 ? time_s : time_s + 5);

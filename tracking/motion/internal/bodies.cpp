@@ -110,10 +110,7 @@ class Bodies {
  public:
   Bodies(const std::vector<RobotTrack>& tracks, const Arena& arena, const Outline& outline,
          const TrackedRun& run)
-      : tracks_(tracks),
-        arena_(arena),
-        disc_(CircleOutline{Footprint(outline, {}).inner_radius_m()}),
-        run_(run) {
+      : tracks_(tracks), arena_(arena), disc_(CircleOutline{inradius_of(outline)}), run_(run) {
     for (const Obstacle& obstacle : arena.obstacles)
       obstacles_.emplace_back(obstacle.outline, obstacle.pose);
   }

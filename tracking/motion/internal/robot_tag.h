@@ -30,7 +30,7 @@ std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> 
 /// Errors of a robot's tag that the pictures show, if they exceed the errors that are assumed.
 struct TagEvidence {
   double height_off_m = 0;  ///< possible error of its height
-  double tilt_rad = 0;      ///< angle by which it leans
+  double tilt_rad = 0;      ///< angle between the tag and the floor
 };
 
 /// One tag of a robot, and its sightings.
