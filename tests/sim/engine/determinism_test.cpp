@@ -10,6 +10,7 @@
 #include "sim/control/machine_text.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 #include "tests/support/not_empty.h"
 
@@ -77,7 +78,9 @@ std::string hash_of(Mission mission, const std::string& flavour_name,
                     const std::string& profile_name) {
   mission.arena.lights.push_back({.x_m = 0.4, .y_m = -0.8, .z_m = 0.75, .intensity_cd = 900});
   const Flavour& flavour = **find_flavour(flavour_name);
-  const Machine machine = parse_machine(machines().at(flavour_name), flavour).value();
+  const std::string& text =
+      machines().at(flavour_name == "chocolate-epuck" ? "chocolate" : flavour_name);
+  const Machine machine = parse_machine(text, flavour).value();
   const Profile profile = built_in_profile(profile_name).value();
   const Instance instance = instance_of(mission, 17).value();
   Digest digest;
@@ -195,6 +198,16 @@ TEST(EngineVersion, IsAnotherWhereTheExactModelMeetsObstacles) {
   EXPECT_EQ(engine_version_of(mission_with_solids(), exact), kSightVersion);
   mission.arena.obstacles.front().height_m = 0.154;
   EXPECT_EQ(engine_version_of(mission, box2d), kSightVersion);
+}
+
+/// The disc solver, radio, votes of the ground sensors, noise of wheels, and numbers that are
+/// ranges.
+TEST(Determinism, TwentyEpucksHaveTheirFixedHash) {
+  const auto file = read_mission_file(SWARMSMITH_SOURCE_DIR "/examples/missions/epuck/rt-aac.toml");
+  ASSERT_TRUE(file);
+  EXPECT_EQ(hash_of(file->mission, "chocolate-epuck", "epuck"), "280a672e05d6d43462422080f29a04d7");
+  EXPECT_EQ(hash_of(file->mission, "chocolate-epuck", "epuck-pseudo-reality"),
+            "960290df2df796834aa8c99c1afd5c66");
 }
 
 TEST(Determinism, TheLidarOfThirtyRobotsHasItsFixedHash) {

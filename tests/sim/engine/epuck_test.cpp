@@ -287,6 +287,52 @@ TEST(Epuck, DrivesInASwarmAsTheOriginalDoesForSixSeconds) {
   EXPECT_LT(farthest_off("rt-aac", "traj-rt-aac-hc03-nonoise-20robots.csv", 60, false), 1e-3);
 }
 
+/// Each wheel's speed is multiplied by 1 + a normal number, drawn anew in each tick (epuck facts,
+/// section 2). It acts from the second of the ten sub-steps on.
+TEST(Epuck, EachWheelHasNormalNoiseOfItsOwn) {
+  constexpr double kSd = 0.05;
+  constexpr double kSubStep_s = 0.01;
+  Mission mission = golden_mission("rt-aac");
+  mission.robots = 1;
+  mission.cycles = 60;  // the robot does not reach a wall
+  Profile profile = ideal();
+  profile.treads.sd = kSd;
+  const Flavour& flavour = **find_flavour("chocolate-epuck");
+  const Controller machine = parse_controller("--nstates 1 --s0 0 --rwm0 5", flavour).value();
+  std::vector<double> sums;         // of both wheels' normal numbers, with variance 1
+  std::vector<double> differences;  // the same
+  double product = 0;
+  for (std::int64_t seed = 1; seed <= 40; ++seed) {
+    Pose last;
+    double speed_mps = 0;
+    double spin_radps = 0;
+    const Recorder recorder([&](const Snapshot& now) {
+      const auto& [pose, command, state, readings] = now.robots.front();
+      const double way_m = std::hypot(pose.x - last.x, pose.y - last.y);
+      speed_mps = (way_m / kSubStep_s - speed_mps) / 9;
+      spin_radps = ((pose.theta - last.theta) / kSubStep_s - spin_radps) / 9;
+      last = pose;
+      if (now.cycle < 2) return;
+      sums.push_back((speed_mps / command.left_mps - 1) * std::sqrt(2.0) / kSd);
+      differences.push_back(spin_radps * mission.robot.drive.track_m / command.left_mps /
+                            (std::sqrt(2.0) * kSd));
+      product += sums.back() * differences.back();
+    });
+    simulate({.controller = machine,
+              .flavour = flavour,
+              .profile = profile,
+              .mission = mission,
+              .instance = {.starts = {{0, 0, 0}}, .patches = {}},
+              .seed = seed},
+             recorder);
+  }
+  const auto n = static_cast<double>(sums.size());
+  ASSERT_GT(n, 2000);
+  EXPECT_LT(ks_statistic(sums, normal_cdf), kKsLimit);
+  EXPECT_LT(ks_statistic(differences, normal_cdf), kKsLimit);
+  EXPECT_LT(std::fabs(product), 3.3 * std::sqrt(n)) << "the wheels' numbers depend on each other";
+}
+
 /// As in the original, where a mission's walls come after the robots (epuck facts, section 6.1).
 TEST(Epuck, DrivesOutOfAWallInWhichItStarts) {
   Mission mission = golden_mission("oc-sca");
