@@ -1,12 +1,12 @@
 #include <memory>
 #include <utility>
 
+#include "base/process/stop_signal.h"
 #include "base/text/json.h"
 #include "robot/app/commands.h"
 #include "robot/app/node_loop.h"
 #include "robot/app/operator_loop.h"
 #include "robot/app/robot_names.h"
-#include "robot/app/stop_signal.h"
 #include "robot/app/transports.h"
 
 namespace swarmsmith {

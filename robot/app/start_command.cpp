@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/process/stop_signal.h"
 #include "base/text/json.h"
 #include "robot/app/commands.h"
 #include "robot/app/machine_word.h"
@@ -10,7 +11,6 @@
 #include "robot/app/operator_loop.h"
 #include "robot/app/robot_names.h"
 #include "robot/app/run_file.h"
-#include "robot/app/stop_signal.h"
 #include "robot/app/transports.h"
 #include "robot/runtime/robot_kind.h"
 

@@ -9,6 +9,7 @@
 
 #include "base/output_file.h"
 #include "base/plain_text.h"
+#include "base/process/stop_signal.h"
 #include "base/suggestion.h"
 #include "base/text/json.h"
 #include "console/counter.h"
@@ -16,7 +17,6 @@
 #include "robot/app/commands.h"
 #include "robot/app/machine_word.h"
 #include "robot/app/robot_names.h"
-#include "robot/app/stop_signal.h"
 #include "robot/app/transports.h"
 #include "robot/runtime/node_state.h"
 #include "robot/runtime/robot_kind.h"

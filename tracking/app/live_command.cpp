@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/process/stop_signal.h"
 #include "base/text/json.h"
 #include "console/terminal.h"
 #include "sim/files/mission_file.h"
@@ -11,7 +12,6 @@
 #include "tracking/app/commands.h"
 #include "tracking/app/recording.h"
 #include "tracking/app/refusal.h"
-#include "tracking/app/stop_signal.h"
 #include "tracking/calibration/board_watch.h"
 #include "tracking/live/delays.h"
 #include "tracking/live/live_pages.h"
@@ -113,7 +113,7 @@ Watched watch(FrameSource& source, LiveTracker& tracker, BoardWatch* board, Live
   NewestFrame newest(source, keep);
   StatusLine line(output);
   Watched watched;
-  while (!stop_was_asked_for() && !newest.has_ended()) {
+  while (stop_signal() == 0 && !newest.has_ended()) {
     newest.wants_color(pages.is_watched());
     auto frame = newest.take(kPatience);
     if (!frame) continue;

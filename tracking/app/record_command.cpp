@@ -7,11 +7,11 @@
 #include <system_error>
 #include <utility>
 
+#include "base/process/stop_signal.h"
 #include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/recording.h"
 #include "tracking/app/sidecar_file.h"
-#include "tracking/app/stop_signal.h"
 #include "tracking/rig/issue.h"
 #include "tracking/video/frame_source.h"
 #include "tracking/video/video_writer.h"

@@ -11,8 +11,8 @@
 
 #include "base/output_file.h"
 #include "base/plain_text.h"
+#include "base/process/stop_signal.h"
 #include "console/terminal.h"
-#include "tracking/app/stop_signal.h"
 #include "tracking/rig/issue.h"
 
 namespace swarmsmith {
@@ -91,7 +91,7 @@ std::string Recording::summary() const {
 }
 
 Expected<void> Recording::all_frames(Output& output) {
-  while (!stop_was_asked_for()) {
+  while (stop_signal() == 0) {
     const auto more = source_.next();
     if (!more) return Unexpected(more.error());
     if (!*more) {
@@ -140,7 +140,7 @@ void Recording::wait_until(double time) const {
   const auto due =
       started_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time));
   constexpr std::chrono::milliseconds kLookAgain{20};
-  while (!stop_was_asked_for() && Clock::now() < due)
+  while (stop_signal() == 0 && Clock::now() < due)
     std::this_thread::sleep_until(std::min(due, Clock::now() + kLookAgain));
 }
 

@@ -4,7 +4,7 @@ namespace swarmsmith {
 
 /// From now on, Ctrl-C and SIGTERM only request a stop and do not end the program.
 void catch_stop_signals();
-/// Whether a stop was requested.
-bool stop_was_asked_for();
+/// The signal that requested a stop; 0: none.
+int stop_signal();
 
 }  // namespace swarmsmith

@@ -1,36 +1,12 @@
-#include "robot/app/stop_signal.h"
+#include "robot/app/input_end.h"
 
 #include <poll.h>
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cerrno>
-#include <csignal>
 
 namespace swarmsmith {
-namespace {
-
-/// Atomic, because a signal handler may run in any thread.
-std::atomic<int> asked_by = 0;
-static_assert(std::atomic<int>::is_always_lock_free);
-
-void ask(int signal) {
-  asked_by = signal;
-}
-
-}  // namespace
-
-void catch_stop_signals() {
-  struct sigaction action {};
-  action.sa_handler = ask;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
-
-int stop_signal() {
-  return asked_by;
-}
 
 bool input_has_ended() {
   while (true) {
