@@ -113,6 +113,20 @@ double inradius_of(const Outline& outline) {
       outline);
 }
 
+double circumradius_of(const Outline& outline) {
+  const auto of_polygon = [](const PolygonOutline& polygon) {
+    double most_m = 0;
+    for (const Point& corner : polygon.corners)
+      most_m = std::max(most_m, hypot(corner.x, corner.y));
+    return most_m;
+  };
+  return std::visit(
+      Overloaded{[](const CircleOutline& circle) { return circle.radius_m; },
+                 [](const BoxOutline& box) { return hypot(box.length_m, box.width_m) / 2; },
+                 of_polygon},
+      outline);
+}
+
 bool overlap(const Footprint& a, const Footprint& b) {
   if (a.corners().empty()) return circle_overlaps(a, b);
   if (b.corners().empty()) return circle_overlaps(b, a);

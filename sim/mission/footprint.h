@@ -39,6 +39,8 @@ class Footprint {
 
 /// Radius of the largest circle around the centre of mass within the outline.
 double inradius_of(const Outline& outline);
+/// The largest distance of the outline from the centre of mass.
+double circumradius_of(const Outline& outline);
 
 /// Whether two solids overlap.
 bool overlap(const Footprint& a, const Footprint& b);

@@ -300,7 +300,12 @@ class Robots(Laboratory):
         self.replace("arena.toml", "tag = 1\n", "tag = 7\n")
         self.refused(1, self.calibrate(), "E_ROBOT_MISSING", "tag 7")
 
+    def test_a_tag_outside_of_the_body(self):
+        self.refused(1, [*self.calibrate(), "--kind", "epuck"], "E_SPIN_QUALITY",
+                     "more than the robot's radius of 35.00 mm")
+
     def test_wrong_words(self):
+        self.refused(2, [*self.calibrate(), "--kind", "epuk"], "robot \"epuk\"", "epuck")
         self.refused(2, self.calibrate(name="rvr9"), "no robot \"rvr9\"", "it has: rvr1")
         self.refused(2, [*self.calibrate(), "--reverse"], "--straight")
         (self.copy / "ceiling.place.toml").unlink()

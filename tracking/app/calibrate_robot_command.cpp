@@ -4,6 +4,7 @@
 #include "base/output_file.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
+#include "sim/files/robot_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/refusal.h"
@@ -18,6 +19,7 @@ namespace {
 
 struct RobotArguments {
   std::string robot;
+  std::string kind = "rvr";
   std::string spin;
   std::string straight;
   std::string arena;
@@ -117,6 +119,10 @@ ExitCode run(const RobotArguments& arguments, Output& output) {
                                   robot->name + ".offset.toml\", or use -o FILE",
                               rig->file)});
   }
+  const auto kind = find_robot(arguments.kind, {});
+  if (!kind) return fail(output, ExitCode::Usage, kind.error().front());
+  OffsetLimits limits;
+  limits.most_offset_m = most_offset_of(kind->body.outline);
   if (!robot->more_tags.empty() && arguments.straight.empty()) {
     return fail(output, ExitCode::Usage,
                 "robot \"" + robot->name + "\" has " + tags_text(*robot) +
@@ -133,7 +139,7 @@ ExitCode run(const RobotArguments& arguments, Output& output) {
   for (const OffsetCalibration& tag : calibration->more_tags) {
     if (!output.json) output.out << report_text(tag);
   }
-  std::vector<Error> faults = faults_of(*calibration);
+  std::vector<Error> faults = faults_of(*calibration, limits);
   for (Error& fault : faults)
     fault.where = arguments.spin;
   if (!faults.empty()) return fail_all(output, faults);
@@ -159,6 +165,9 @@ CommandRun declare_calibrate_robot(Options& options) {
   auto arguments = std::make_shared<RobotArguments>();
   options.text("NAME", arguments->robot, "The robot, as the arena file names it",
                Options::Need::Required);
+  options.text(
+      "--kind ROBOT|FILE", arguments->kind,
+      "Kind of robot: rvr, epuck, or a robot's file; its tag sits on its body (default rvr)");
   options.text("--spin FILE", arguments->spin, "Video of the robot turning on the spot, two turns",
                Options::Need::Required);
   options.text("--straight FILE", arguments->straight,

@@ -91,7 +91,8 @@ on for half a metre or more (only for headings; scores need the spin alone). The
 the centre of rotation, which becomes the robot's origin: the centre of its tread base.
 
 Refused with E_SPIN_QUALITY, and no file written: under 60 samples or 300 degrees, RMS over
-2 mm, offset not known to 0.5 mm or over 135 mm, centre creeping over 5 mm/s.)";
+2 mm, offset not known to 0.5 mm, tag outside of the robot's body (over 135 mm from its
+centre; other robots: --kind), centre creeping over 5 mm/s.)";
 
 constexpr std::string_view kOverlayDetails = R"(Examples:
   swarmsmith track overlay r7 --store demo.db -o r7.mp4

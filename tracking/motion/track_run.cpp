@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <set>
@@ -86,6 +87,16 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, bool is_another, con
   if (found != rig.offsets.end()) {
     const OffsetCalibration* const own = of_tag(found->second, setup.tag);
     if (own != nullptr) {
+      const double length_m = std::hypot(own->offset.x_m, own->offset.y_m);
+      if (const double most_m = most_offset_of(options.body); length_m > most_m) {
+        return Unexpected(error_of(
+            IssueCode::SpinQuality,
+            fmt::format("the tag of {} would sit {:.1f} mm from its centre, but a robot of this "
+                        "mission reaches {:.1f} mm from it; make its calibration again, or name "
+                        "the mission's robot",
+                        setup.name, 1000 * length_m, 1000 * most_m),
+            setup.offset_file));
+      }
       const TaggedRobot robot{setup, own->offset,  std::max(own->sigma_x_m, own->sigma_y_m),
                               true,  own->has_yaw, is_another};
       run.checks.push_back(answered(kOffset, robot.subject(), Check::Outcome::Passed,

@@ -79,7 +79,8 @@ inline constexpr const char* kClockOfTheFilm = "clock of the film";
 
 /// Converts sightings in pixels to what the simulator would have recorded. Pure. Fails with
 /// E_ROBOT_MISSING if a robot was not seen in the first 2 s (E_DUPLICATE_ID or E_VIDEO_TRUNCATED if
-/// that is the reason), E_NO_OFFSET, E_CALIB_SIZE, if the rig lacks a camera's calibrations, or if
+/// that is the reason), E_NO_OFFSET, E_SPIN_QUALITY if a tag would sit outside of the
+/// body, E_CALIB_SIZE, if the rig lacks a camera's calibrations, or if
 /// a camera's readout or exposure takes longer than from one of its pictures to the next. Problems
 /// that make a run invalid are issues. The result does not depend on the order of the sightings.
 Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig, const Arena& arena,

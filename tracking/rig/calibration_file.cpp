@@ -1,6 +1,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
@@ -303,7 +304,10 @@ OrComplaints<OffsetCalibration> parse_offset_calibration(std::string_view text,
     table.finish();
   }
   root.finish();
-  return read.finish(std::move(calibration));
+  // The file does not say what kind of robot it is; `track_run` compares it with the mission's.
+  OffsetLimits limits;
+  limits.most_offset_m = std::numeric_limits<double>::infinity();
+  return read.finish(std::move(calibration), limits);
 }
 
 }  // namespace swarmsmith

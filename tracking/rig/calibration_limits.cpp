@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "sim/mission/footprint.h"
+#include "sim/robot/rvr.h"
 
 namespace swarmsmith {
 namespace {
@@ -189,6 +191,11 @@ std::vector<std::string> cautions_of(const PlaceCalibration& calibration,
                   "again",
                   calibration.rms_px, in_brackets(calibration.rms_px, calibration), good_px,
                   in_brackets(good_px, calibration), calibration.worst_tag)};
+}
+
+double most_offset_of(const Outline& body) {
+  if (body == Outline(BoxOutline{kBodySide_m, kBodySide_m})) return OffsetLimits{}.most_offset_m;
+  return circumradius_of(body);
 }
 
 std::vector<Error> faults_of(const OffsetCalibration& calibration, const OffsetLimits& limits) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/mission/solid.h"
 #include "tracking/rig/rig.h"
 
 namespace swarmsmith {
@@ -49,9 +50,12 @@ struct OffsetLimits {
   double least_turn_rad = 5.235987755982989;  ///< 300 degrees
   double rms_m = 0.002;
   double sigma_m = 0.0005;       ///< standard error of the offset, per axis
-  double most_offset_m = 0.135;  ///< the robot's radius
+  double most_offset_m = 0.135;  ///< the RVR's radius
   double drift_m_s = 0.005;      ///< speed at which the centre moves during the spin
 };
+
+/// The largest distance of a tag from the centre of such a robot: as far as its body reaches.
+double most_offset_of(const Outline& body);
 
 /// All reasons why a calibration cannot be used, each with its value, its limit and advice:
 /// E_CALIB_QUALITY for cameras; E_REF_TAGS and E_EXTRINSICS for places; E_SPIN_QUALITY for offsets.

@@ -140,8 +140,8 @@ TEST(CalibrationFileTest, WhatIsUnfitIsRefusedAlsoFromAFile) {
           replaced(hung, "translation = [0.1, -0.2, 2.7]", "translation = [0, 0, -1]"), "f")),
       HasSubstr("E_EXTRINSICS"));
   EXPECT_THAT(first_error(parse_offset_calibration(
-                  replaced(calibration_text(offset()), "x = 0.061", "x = 0.2"), "f")),
-              AllOf(HasSubstr("E_SPIN_QUALITY"), HasSubstr("203.56 mm")));
+                  replaced(calibration_text(offset()), "samples = 120", "samples = 59"), "f")),
+              AllOf(HasSubstr("E_SPIN_QUALITY"), HasSubstr("59 usable samples")));
 }
 
 /// Every cut and every flipped byte gives a calibration or errors, and nothing else.

@@ -122,6 +122,21 @@ TEST(TrackRunTest, RefusesAnOffsetOfAnotherTag) {
   EXPECT_THAT(complaint_of(seen.track()), HasSubstr("of tag 17"));
 }
 
+/// Limits: the RVR's radius, and how far another body reaches.
+TEST(TrackRunTest, RefusesATagOutsideOfTheBody) {
+  SeenRun seen = seen_run(on_circle, short_run());
+  seen.rig.offsets.at("rvr1.offset.toml").offset = {0.109, -0.08, 0};
+  EXPECT_THAT(complaint_of(seen.track()),
+              HasSubstr("E_SPIN_QUALITY: the tag of rvr1 would sit 135.2 mm from its centre, but a "
+                        "robot of this mission reaches 135.0 mm"));
+  seen.options.body = BoxOutline{0.25, 0.1};
+  EXPECT_THAT(complaint_of(seen.track()), HasSubstr("reaches 134.6 mm"));
+  seen.options.body = PolygonOutline{{{0.136, 0}, {-0.1, 0.1}, {-0.1, -0.1}}};
+  EXPECT_TRUE(seen.track());
+  seen.options.body = CircleOutline{0.136};
+  EXPECT_TRUE(seen.track());
+}
+
 TEST(TrackRunTest, RefusesCalibrationsOfAnotherSizeOrNone) {
   SeenRun seen = seen_run(on_circle, short_run());
   seen.rig.models.at("camera0.camera.toml").model.size = {1280, 720};
