@@ -26,10 +26,11 @@ endfunction()
 set(SWARMSMITH_GNU_RELEASE $<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>)
 add_compile_options($<$<CONFIG:Release>:-O1> $<${SWARMSMITH_GNU_RELEASE}:-Wno-error=maybe-uninitialized>)
 
-# swarmsmith_optimise(): compiles this folder and its subfolders with -O3, for code that computes much. Call it before
-# their targets are defined.
+# swarmsmith_optimise(): compiles this folder and its subfolders with -O3, for code that computes much. Without
+# -fno-tree-slp-vectorize, GCC 12 reads pairs of numbers at once that were written one by one, and each such read waits
+# for the writes (docs/performance.md). Call it before their targets are defined.
 macro(swarmsmith_optimise)
-  add_compile_options($<$<CONFIG:Release>:-O3>)
+  add_compile_options($<$<CONFIG:Release>:-O3> $<${SWARMSMITH_GNU_RELEASE}:-fno-tree-slp-vectorize>)
   if(SWARMSMITH_WERROR)
     add_compile_options($<${SWARMSMITH_GNU_RELEASE}:-Werror=maybe-uninitialized>)
   endif()

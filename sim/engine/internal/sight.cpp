@@ -8,6 +8,9 @@
 namespace swarmsmith {
 namespace {
 
+/// So many movers are tried one by one, without a search for near ones.
+constexpr int kFew = 64;
+
 /// Whether the segment from one point to another crosses the face of the wall.
 bool meets_face(const WallPlane& wall, Point from, Point to) {
   const double depth = wall.depth_of(from.x, from.y);
@@ -74,12 +77,26 @@ bool Sight::is_hidden(int robot, int other, std::vector<int>& room) const {
     }
   }
   if (!movers_hide_) return false;
+  // Most movers are so far from the line that even the largest one would not meet it.
+  const double radius_m = world_->largest_radius_m();
+  const double distance2 = world_->distance2(robot, other);
+  const double beside2 = 1.000001 * radius_m * radius_m * distance2;
+  const auto hides = [&](int third) {
+    const Body& at = world_->body(third);
+    const double beside = along.x * (at.y - from.y) - along.y * (at.x - from.x);
+    return beside * beside <= beside2 && third != robot && third != other &&
+           world_->form(third).height_m >= height_m_ &&
+           meets_solid(world_->form(third), at, from, along);
+  };
+  if (world_->movers() <= kFew) {
+    for (int third = 0; third < world_->movers(); ++third) {
+      if (hides(third)) return true;
+    }
+    return false;
+  }
   bool hidden = false;
-  const double distance = std::sqrt(world_->distance2(robot, other));
-  world_->visit_near(robot, distance + world_->largest_radius_m(), room, [&](int third) {
-    if (hidden || third == other || world_->form(third).height_m < height_m_) return;
-    hidden = meets_solid(world_->form(third), world_->body(third), from, along);
-  });
+  world_->visit_near(robot, std::sqrt(distance2) + radius_m, room,
+                     [&](int third) { hidden = hidden || hides(third); });
   return hidden;
 }
 

@@ -11,10 +11,12 @@
 #include <vector>
 
 #include "base/math.h"
+#include "base/rng.h"
 #include "base/text/csv.h"
 #include "sim/control/controller.h"
 #include "sim/control/readings.h"
 #include "sim/engine/internal/robot_senses.h"
+#include "sim/engine/internal/sight.h"
 #include "sim/engine/internal/world.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/mission_file.h"
@@ -190,6 +192,46 @@ TEST(Epuck, HearsOthersAsTheOriginalDoes) {
     EXPECT_NEAR(wrap_angle(atan2(sum.y, sum.x) - number_in(row, "attr1_angle")), 0, 1e-4);
   }
   EXPECT_GT(hidden, 0);
+}
+
+/// Few robots are tried one by one, many by a search for near ones.
+TEST(Epuck, RobotsHideEachOtherHoweverManyThereAre) {
+  const Robot robot = golden_mission("rt-aac").robot;
+  const double radius_m = std::get<CircleOutline>(robot.body.outline).radius_m;
+  for (const int robots : {20, 90}) {
+    Rng rng(7);
+    std::vector<Pose> poses;
+    for (int i = 0; i < robots; ++i)
+      poses.push_back({rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-3, 3)});
+    const Arena arena = dodecagon_of_the_thesis();
+    const World world(arena, robot, poses, ContactModel::Exact);
+    const Sight sight(world, arena.wall_height_m);
+    std::vector<int> room;
+    int hidden = 0;
+    for (int a = 0; a < robots; ++a) {
+      for (int b = 0; b < a; ++b) {
+        const auto hides = [&](int third) {
+          if (third == a || third == b) return false;
+          const Pose from = poses.at(static_cast<std::size_t>(a));
+          const Pose to = poses.at(static_cast<std::size_t>(b));
+          const Pose at = poses.at(static_cast<std::size_t>(third));
+          const double x = to.x - from.x;
+          const double y = to.y - from.y;
+          const double on =
+              std::clamp(((at.x - from.x) * x + (at.y - from.y) * y) / (x * x + y * y), 0.0, 1.0);
+          return std::hypot(from.x + on * x - at.x, from.y + on * y - at.y) <= radius_m;
+        };
+        bool expected = false;
+        for (int third = 0; third < robots; ++third)
+          expected = expected || hides(third);
+        EXPECT_EQ(sight.is_hidden(a, b, room), expected) << robots << " " << a << " " << b;
+        EXPECT_EQ(sight.is_hidden(b, a, room), expected) << robots << " " << a << " " << b;
+        hidden += expected ? 1 : 0;
+      }
+    }
+    EXPECT_GT(hidden, robots);
+    EXPECT_LT(hidden, robots * robots / 2 - robots);
+  }
 }
 
 /// Lets the robots drive by the commands of a trace.
