@@ -73,6 +73,13 @@ std::optional<std::string> misfit(const Profile& profile, const Robot& robot) {
     return "the profile `" + profile.name + "` does not fit the robot `" + robot.name + "`: `" +
            key + "` is only for robots " + std::string(field.robots);
   }
+  const NeighbourSensor rvr;
+  if (profile.neighbours.source == NeighbourSensing::Source::Lidar &&
+      (robot.neighbours.range_m != rvr.range_m || robot.neighbours.less_m != rvr.less_m)) {
+    return "the profile `" + profile.name + "` does not fit the robot `" + robot.name +
+           "`: it finds neighbours with the RVR's lidar, which has the RVR's `range` and `less`; "
+           "use a profile with neighbours.source = \"camera\"";
+  }
   return std::nullopt;
 }
 

@@ -43,6 +43,29 @@ void complain_of_key(TableReader& table, std::string_view device, std::string_vi
   }
 }
 
+/// Walls and other bodies stop a robot at sub-steps, by impulses against those of its drive.
+void check_drive(TableReader& table, const Robot& robot) {
+  constexpr double kSubStep_s = 0.01;
+  constexpr double kMostAcceleration_mps2 = 500;
+  const double width_m = 2 * inradius_of(robot.body.outline);
+  const double way_m = robot.drive.max_speed_mps * kSubStep_s;
+  if (way_m > width_m) {
+    complain_of_key(table, "drive", "max_speed",
+                    "it would move " + number_text(way_m) + " m in " + number_text(kSubStep_s) +
+                        " s, more than its own width of " + number_text(width_m) +
+                        " m, and so through walls; `max_speed` may be up to " +
+                        number_text(width_m / kSubStep_s) + " m/s for this body");
+  }
+  const double most_N = kMostAcceleration_mps2 * robot.body.mass_kg;
+  if (robot.drive.max_force_N > most_N) {
+    complain_of_key(table, "drive", "force",
+                    "`force` is " + number_text(robot.drive.max_force_N) +
+                        " N, which would push a robot of " + number_text(robot.body.mass_kg) +
+                        " kg through walls; give up to " + number_text(most_N) +
+                        " N, 500 times its mass");
+  }
+}
+
 /// Checks for numbers that are within their limits, but impossible for a body of this size.
 void check_measures(TableReader& table, const Robot& robot) {
   constexpr double kMostTimes = 1000;  ///< between the inertia of a plate and the robot's
@@ -66,7 +89,16 @@ void check_measures(TableReader& table, const Robot& robot) {
                         " m from it; at most 0.5 m, or three times the body's radius, is allowed");
   };
   check_place("proximity", "start", robot.proximity.start_m);
-  check_place("light", "out", robot.light.out_m);
+  // The RVR's is allowed: a robot has it if its file does not name `out`.
+  if (robot.light.reading == LightRing::Reading::Strength && robot.light.out_m != 0 &&
+      robot.light.out_m != LightRing{}.out_m) {
+    complain_of_key(table, "light", "out",
+                    "strengths of light are measured at the robot's centre, and `out` does nothing "
+                    "here; leave it out, or use reading = \"lux\"");
+  } else {
+    check_place("light", "out", robot.light.out_m);
+  }
+  check_drive(table, robot);
   const NeighbourSensor& sensor = robot.neighbours;
   if (sensor.range_m > 0 && sensor.less_m > 0 && sensor.less_m >= sensor.range_m) {
     complain_of_key(table, "neighbours", "less",

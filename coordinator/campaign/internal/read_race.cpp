@@ -110,6 +110,26 @@ bool uses(const Campaign& campaign, SearchKind kind) {
                             [](const Method& m) { return kind_of(m.search); }) > 0;
 }
 
+/// The most decimals of a real parameter that a method of the campaign searches.
+std::int64_t digits_of_modules(const Campaign& campaign) {
+  std::int64_t digits = campaign.digits;
+  for (const Method& method : campaign.methods) {
+    const auto flavour = flavour_of(method);
+    if (!flavour) continue;
+    for (const auto& [table, ids] : {std::pair(&(*flavour)->behaviours, &method.behaviours),
+                                     std::pair(&(*flavour)->conditions, &method.conditions)}) {
+      for (const ModuleSpec& module : *table) {
+        if (std::ranges::find(*ids, module.id) == ids->end()) continue;
+        for (const ParameterSpec& parameter : module.parameters) {
+          if (parameter.type == ParameterSpec::Type::Real)
+            digits = std::max<std::int64_t>(digits, parameter.digits);
+        }
+      }
+    }
+  }
+  return digits;
+}
+
 }  // namespace
 
 bool has_races(const Campaign& campaign) {
@@ -133,7 +153,7 @@ void read_race(TableReader& root, const std::filesystem::path& folder, Campaign&
   read_numbers(*race, campaign.race);
   if (has_races(campaign) && !uses(campaign, SearchKind::Irace))
     refuse_options_of_irace(*race, campaign.race);
-  campaign.digits = race->integer("digits", {1, 15}).value_or(campaign.digits);
+  campaign.digits = race->integer("digits", {1, 15}).value_or(digits_of_modules(campaign));
   campaign.test_nb_elites =
       race->integer("test_nb_elites", {0, 1000}).value_or(campaign.test_nb_elites);
   campaign.test_iteration_elites =

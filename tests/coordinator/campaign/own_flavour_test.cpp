@@ -53,6 +53,21 @@ TEST_F(OwnFlavour, LivesWholeInTheCampaignsText) {
   EXPECT_THAT(own_flavours_in(normalised_text(parsed(FileText().text()))), ElementsAre());
 }
 
+TEST_F(OwnFlavour, HasTheDecimalsOfTheSearch) {
+  const std::string fine =
+      "format = 1\nbase = \"watermelon\"\n[conditions]\nfixed_probability = { number = 0, beta = { "
+      "range = [0.0001, 0.5], digits = 4 } }\nneighbour_count = { number = 1 }\n";
+  const auto digits = [&](const std::string& method, const std::string& race) {
+    const auto campaign = read(fine, {.method = kMethod + method, .race = race});
+    EXPECT_TRUE(campaign) << to_string(campaign.error().front());
+    return campaign ? campaign->digits : 0;
+  };
+  const std::string race = FileText().race;
+  EXPECT_EQ(digits("", race), 4);
+  EXPECT_EQ(digits("", race + "digits = 5\n"), 5);
+  EXPECT_EQ(digits("conditions = [\"neighbour_count\"]\n", race), 2);
+}
+
 TEST_F(OwnFlavour, IsTheOnlyOneOfItsName) {
   const auto method_of = [&](const std::string& flavour, const std::string& name) {
     const std::string text = normalised_text(*read(flavour, {.method = kMethod}));

@@ -153,10 +153,25 @@ TEST(RobotFile, NumbersFarFromWhatTheBodyCanHaveAreRefused) {
                   "ends 0.035 m from it; at most 0.5 m, or three times the body's radius")));
   EXPECT_THAT(complaints("[body]\nshape = \"circle\"\ndiameter = 0.4\n[proximity]\nstart = 0.6\n"),
               IsEmpty());
-  EXPECT_THAT(complaints("base = \"epuck\"\n[light]\nout = 0.6\n"),
-              ElementsAre(HasSubstr("mine.toml:4:7: `out` is 0.6 m from the centre")));
+  EXPECT_THAT(complaints("[light]\nout = 0.8\n"),
+              ElementsAre(HasSubstr("mine.toml:3:7: `out` is 0.8 m from the centre")));
+  EXPECT_THAT(complaints("base = \"epuck\"\n[light]\nout = 0.03\n"),
+              ElementsAre(HasSubstr("mine.toml:4:7: strengths of light are measured at the")));
   EXPECT_THAT(complaints("[body]\nshape = \"circle\"\ndiameter = 0.05\n"), IsEmpty())
       << "the RVR's places on a small body";
+}
+
+/// Such robots drove through walls.
+TEST(RobotFile, DrivesThatWallsDoNotStopAreRefused) {
+  const std::string small = "[body]\nshape = \"circle\"\ndiameter = 0.02\nmass = 0.05\n[drive]\n";
+  EXPECT_THAT(complaints(small + "max_speed = 2.01\n"),
+              ElementsAre("mine.toml:7:13: it would move 0.0201 m in 0.01 s, more than its own "
+                          "width of 0.02 m, and so through walls; `max_speed` may be up to 2 m/s "
+                          "for this body"));
+  EXPECT_THAT(complaints(small + "max_speed = 1.99\nforce = 24.9\n"), IsEmpty());
+  EXPECT_THAT(complaints(small + "force = 25.1\n"),
+              ElementsAre("mine.toml:7:9: `force` is 25.1 N, which would push a robot of 0.05 kg "
+                          "through walls; give up to 25 N, 500 times its mass"));
 }
 
 TEST(RobotFile, APolygonHasItsCentreOfMassWhereTheRobotHasItsCentre) {
@@ -263,6 +278,16 @@ TEST(RobotFile, WhatDoesNotFitIsRefusedWithASentence) {
       "proximity sensors measure distances");
   EXPECT_THAT(misfit(built_in_profile("epuck").value(), rvr()),
               Optional(HasSubstr("`proximity.half_width`")));
+  Robot far = rvr();
+  far.name = "far";
+  far.neighbours.range_m = 2;
+  EXPECT_EQ(misfit(built_in_profile("thesis-robots").value(), rvr()), std::nullopt);
+  EXPECT_EQ(misfit(built_in_profile("rvr").value(), far), std::nullopt);
+  EXPECT_EQ(
+      misfit(built_in_profile("thesis-robots").value(), far),
+      "the profile `thesis-robots` does not fit the robot `far`: it finds neighbours with the "
+      "RVR's lidar, which has the RVR's `range` and `less`; use a profile with "
+      "neighbours.source = \"camera\"");
   for (const char* name : {"epuck", "epuck-ideal", "epuck-pseudo-reality", "argos3"})
     EXPECT_EQ(misfit(built_in_profile(name).value(), epuck), std::nullopt) << name;
 }
