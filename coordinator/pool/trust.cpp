@@ -368,11 +368,6 @@ void Trust::drop_waiting(Principal& principal, std::optional<WorkerNumber> worke
   });
 }
 
-bool Trust::is_cast_out(const Said& said) const {
-  const WorkerEntry* entry = workers_->of_number(said.worker);
-  return entry != nullptr && entry->quarantined;
-}
-
 std::vector<std::string> Trust::forgive(std::string_view word, const std::string& by,
                                         TimePoint now) {
   book_->now = now;
