@@ -234,7 +234,7 @@ TEST_F(Authority, StopsTheCampaignWhenAWorkerThatWasBelievedLies) {
   rule_score(10);
   EXPECT_TRUE(only<StopCampaign>().distrusted);
   const std::string reason = only<StopCampaign>().reason;
-  for (const char* part : {"10.0.0.1", "99", "1 results", "--without-key \"10.0.0.1\""})
+  for (const char* part : {"10.0.0.1", "99", "1 result of", "--without-key \"10.0.0.1\""})
     EXPECT_NE(reason.find(part), std::string::npos) << reason;
   EXPECT_EQ(std::ranges::count(kinds(), "a stored score is wrong"), 1);
 }
