@@ -58,7 +58,7 @@ void Trust::claim(WorkerEntry& entry, TaskRecord& record, Said::What what) {
 }
 
 void Trust::rule_on_stray(TaskRecord& record) {
-  if (cases_.of_nobody() > 0 || book_->options.evaluates_programs) return;
+  if (cases_.without_worker() > 0 || book_->options.evaluates_programs) return;
   record.strays = 0;
   book_->leases.park(record);
   cases_.open(record.task, std::nullopt, false);

@@ -84,7 +84,7 @@ TEST(HostFile, OfTheExamplesIsRight) {
 }
 
 TEST(HostFile, WithoutHostsIsAMistake) {
-  EXPECT_THAT(parse_hosts("# nobody\n", "h").error().front().message, HasSubstr("no host"));
+  EXPECT_THAT(parse_hosts("# none\n", "h").error().front().message, HasSubstr("no host"));
   EXPECT_EQ(read_hosts("/nonexistent/h").error().front().where, "/nonexistent/h");
   EXPECT_FALSE(read_hosts("/"));
 }

@@ -35,7 +35,7 @@ TEST_F(Authority, RefusesAResultThatWasNeverLeased) {
   EXPECT_EQ(all<SendAcknowledged>().size(), 1U) << "it need not be sent again";
 }
 
-TEST_F(Authority, RefusesAResultOfSomebodyElsesLease) {
+TEST_F(Authority, RefusesAResultOfAnotherWorkersLease) {
   hello(1), hello(2);
   give(1, 1);
   answer(2, 1, 99);
@@ -285,7 +285,7 @@ TEST_F(Authority, MakesAgainWhatAProcessThatCrashedHadChosen) {
   EXPECT_TRUE(only<StopCampaign>().distrusted);
 }
 
-TEST_F(Authority, MakesNothingAgainWhereNobodyWantsAudits) {
+TEST_F(Authority, MakesNothingAgainWithoutAudits) {
   audit_every(0);
   enter(1, "10.0.0.1");
   give(1, 1);
