@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "base/plain_text.h"
 #include "base/rng.h"
 #include "irace_core/internal/instances.h"
 #include "irace_core/internal/race.h"
@@ -357,15 +358,16 @@ Expected<std::unique_ptr<Search>> start_ablation(ParameterSpace space, const Sce
   }
   if (ends[0] == ends[1]) return bad_input("its two configurations are the same", "ablation");
   if (scenario.deterministic && scenario.ablation_pairs > scenario.n_instances) {
-    return bad_input("is " + std::to_string(scenario.ablation_pairs) + ", and there are " +
-                         std::to_string(scenario.n_instances) +
-                         " instances, and each is used once (deterministic)",
+    return bad_input("is " + std::to_string(scenario.ablation_pairs) + ", and there " +
+                         (scenario.n_instances == 1 ? "is " : "are ") +
+                         counted(scenario.n_instances, "instance") +
+                         ", and each is used once (deterministic)",
                      "ablation_pairs");
   }
   const std::int64_t most = most_ablation_runs(ends[0], ends[1], scenario.ablation_pairs);
   if (scenario.max_experiments < most) {
-    return bad_input("a budget of " + std::to_string(scenario.max_experiments) +
-                         " experiments is too small for this ablation: it must be at least " +
+    return bad_input("a budget of " + counted(scenario.max_experiments, "experiment") +
+                         " is too small for this ablation: it must be at least " +
                          std::to_string(most),
                      "max_experiments");
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/plain_text.h"
 #include "irace_core/internal/check_parameter.h"
 
 namespace swarmsmith {
@@ -252,8 +253,8 @@ bool ParameterSpace::is_forbidden(const Configuration& configuration) const {
 
 Expected<void> ParameterSpace::check(const Configuration& configuration) const {
   if (configuration.size() != size()) {
-    return bad_input("a configuration has " + std::to_string(configuration.size()) +
-                     " values, the space " + std::to_string(size()) + " parameters");
+    return bad_input("a configuration has " + counted(configuration.size(), "value") +
+                     ", the space " + counted(size(), "parameter"));
   }
   Assignment values(*this);
   for (const std::size_t i : order_) {

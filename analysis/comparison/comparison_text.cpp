@@ -9,6 +9,7 @@
 
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/statistics/effect_size.h"
+#include "base/plain_text.h"
 #include "base/shown_text.h"
 #include "base/text/text_table.h"
 
@@ -97,12 +98,12 @@ std::string ranks_text(const ComparedRanks& ranks) {
          interval ? fmt::format("[{:.3f}, {:.3f}]", interval->low, interval->high) : "-"});
   }
   std::string text = fmt::format(
-      "Ranks of mean scores{} over {} ({} blocks{}): Friedman chi-squared {}, {} degree{} of "
-      "freedom, p {}\n",
+      "Ranks of mean scores{} over {} ({}{}): Friedman chi-squared {}, {} of freedom, "
+      "p {}\n",
       ranks.source.empty() ? "" : " in " + ranks.source, fmt::join(ranks.missions, ", "),
-      test.blocks,
+      counted(test.blocks, "block"),
       ranks.incomplete == 0 ? "" : fmt::format(", {} incomplete ones left out", ranks.incomplete),
-      shown(test.statistic), test.degrees, test.degrees == 1 ? "" : "s", shown_p(test.p_value));
+      shown(test.statistic), counted(test.degrees, "degree"), shown_p(test.p_value));
   return fmt::format("{}{}{}\n", text, aligned(std::move(table)), test.reading());
 }
 

@@ -15,6 +15,7 @@
 #include "analysis/figures/internal/score_groups.h"
 #include "analysis/figures/makers.h"
 #include "analysis/statistics/summary.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -190,7 +191,8 @@ std::string draw(const BoxPlot& plot) {
   const BoxRows rows(plot.panels, plot.width_mm, kPage - heading - below_height - kMargin);
   const double bottom = stands ? standing.bottom : heading + rows.height();
   Svg svg(plot.width_mm, bottom + below_height + kMargin, plot.title,
-          fmt::format("Box plots with points in {} panels; {}", plot.panels.size(), plot.axis));
+          fmt::format("Box plots with points in {}; {}", counted(plot.panels.size(), "panel"),
+                      plot.axis));
   const double top = draw_heading(svg, plot.title, plot.details);
   const TextStyle ink{.size = kTextSize, .fill = std::string(kInk)};
   svg.text({kMargin, top + kTextSize}, fitted_text(plot.axis, kTextSize, plot.width_mm - 4), ink);

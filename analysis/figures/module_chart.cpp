@@ -10,6 +10,7 @@
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
 #include "analysis/figures/internal/module_grid.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -202,7 +203,8 @@ std::string draw(const ModuleChart& chart) {
   const double bottom = top + height * static_cast<double>(stripes.size());
   if (chart.blocks.size() > 1 && bottom > kPage) return draw_module_grid(chart);
   Svg svg(chart.width_mm, bottom + kLineHeight * static_cast<double>(explanation.size()) + kMargin,
-          chart.title, fmt::format("Table with bars: {} modules by mission", chart.modules.size()));
+          chart.title,
+          fmt::format("Table with bars: {} by mission", counted(chart.modules.size(), "module")));
   draw_heading(svg, chart.title, chart.details);
   for (std::size_t i = 0; i < stripes.size(); ++i)
     draw_stripe(svg, chart, stripes[i], top + height * static_cast<double>(i), layout);

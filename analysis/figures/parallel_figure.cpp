@@ -11,6 +11,7 @@
 #include "analysis/figures/internal/parameter_table.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/parallel_plot.h"
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 
 namespace swarmsmith {
@@ -139,11 +140,11 @@ Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& option
   }
 
   ParallelPlot plot{.title = title_of(*design), .width_mm = options.width_mm};
-  plot.details.push_back(fmt::format("{} elite{} of {}, iteration {}", drawn.elites.size(),
-                                     drawn.elites.size() == 1 ? "" : "s", to_string(design->design),
-                                     drawn.iteration));
-  plot.details.push_back(
-      fmt::format("and {} of {} other candidates", drawn.others.size(), drawn.others_in_all));
+  plot.details.push_back(fmt::format("{} of {}, iteration {}",
+                                     counted(drawn.elites.size(), "elite"),
+                                     to_string(design->design), drawn.iteration));
+  plot.details.push_back(fmt::format("and {} of {}", drawn.others.size(),
+                                     counted(drawn.others_in_all, "other candidate")));
   plot.caption = caption_of(drawn, options, chosen->size(), table->columns.size());
   for (const std::size_t place : *chosen) {
     const ParameterColumn& column = table->columns[place];

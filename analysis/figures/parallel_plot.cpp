@@ -12,6 +12,7 @@
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
 #include "analysis/figures/internal/parallel_layout.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -119,8 +120,8 @@ void draw_score_axis(Svg& svg, const ParallelLayout& at) {
 
 std::string description_of(const ParallelPlot& plot) {
   const auto elites = std::ranges::count(plot.lines, true, &ParallelPlot::Line::is_elite);
-  std::string text = fmt::format("Parallel coordinates of {} elites and {} other candidates over",
-                                 elites, static_cast<std::ptrdiff_t>(plot.lines.size()) - elites);
+  std::string text = fmt::format("Parallel coordinates of {} and {} over", counted(elites, "elite"),
+                                 counted(std::ssize(plot.lines) - elites, "other candidate"));
   for (const auto& parameter : plot.parameters)
     text += " " + parameter.name + ",";
   return text + " and their mean scores. " + plot.caption;

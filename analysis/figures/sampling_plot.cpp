@@ -10,6 +10,7 @@
 #include "analysis/drawing/legend.h"
 #include "analysis/figures/internal/category_colors.h"
 #include "analysis/figures/internal/sampling_panel.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -88,8 +89,8 @@ std::string description_of(const SamplingPlot& plot) {
   std::string names;
   for (const auto& panel : plot.panels)
     names += (names.empty() ? "" : ", ") + panel.name;
-  return fmt::format("Values sampled by iteration, {} iterations, a panel each of {}. {}",
-                     plot.iterations.size(), names, plot.caption);
+  return fmt::format("Values sampled by iteration, {}, a panel each of {}. {}",
+                     counted(plot.iterations.size(), "iteration"), names, plot.caption);
 }
 
 }  // namespace

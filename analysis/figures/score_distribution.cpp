@@ -17,6 +17,7 @@
 #include "analysis/figures/internal/score_grid.h"
 #include "analysis/figures/internal/score_groups.h"
 #include "analysis/figures/makers.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -222,7 +223,8 @@ std::string draw(const ScoreDistribution& plot) {
   const double bottom = first + row * static_cast<double>(grid.rows());
   const Legend legend = legend_of(plot);
   Svg svg(plot.width_mm, bottom + legend.height() + kMargin, plot.title,
-          fmt::format("Bars of how often scores occurred, in {} panels", plot.panels.size()));
+          fmt::format("Bars of how often scores occurred, in {}",
+                      counted(plot.panels.size(), "panel")));
   const double top = draw_heading(svg, plot.title, plot.details);
   svg.text({kMargin, top + kTextSize}, kShare, {.size = kTextSize, .fill = std::string(kInk)});
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/summary.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -99,9 +100,9 @@ std::optional<std::string> seeds_differ(const std::vector<DesignScore>& scores,
   }
   if (different == 0) return std::nullopt;
   return fmt::format(
-      "the seeds of {} and {} differ in {} of {} designs, so part of the difference may come from "
+      "the seeds of {} and {} differ in {} of {}, so part of the difference may come from "
       "the seeds",
-      first, second, different, paired);
+      first, second, different, counted(paired, "design"));
 }
 
 }  // namespace swarmsmith

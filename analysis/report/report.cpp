@@ -10,6 +10,7 @@
 
 #include "analysis/records/names.h"
 #include "analysis/report/internal/sections.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -66,8 +67,8 @@ std::string summary_of(const std::vector<DesignRecord>& designs) {
   if (!baselines.empty()) {
     text += fmt::format("; without a race, to compare with: {}", fmt::join(baselines, ", "));
   }
-  return text + fmt::format(". {} of {} designs {} finished. Higher scores are better.", finished,
-                            designs.size(), designs.size() == 1 ? "is" : "are");
+  return text + fmt::format(". {} of {} finished. Higher scores are better.", finished,
+                            counted(designs.size(), "design is", "designs are"));
 }
 
 /// Up to this number of designs, each gets a chapter by default.

@@ -6,6 +6,7 @@
 
 #include "analysis/records/records.h"
 #include "base/output_file.h"
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "cli/arguments/thing_id.h"
@@ -90,8 +91,8 @@ ExitCode tell(const std::string& kind, const std::string& place, DesignId design
   const auto unknown = std::ranges::count_if(
       log.parameters, [](const LogParameter& parameter) { return parameter.domain.empty(); });
   if (unknown > 0) {
-    print_note(output, "the store does not know the domains of " + std::to_string(unknown) +
-                           " parameters; the log gets the values that were tried instead");
+    print_note(output, "the store does not know the domains of " + counted(unknown, "parameter") +
+                           "; the log gets the values that were tried instead");
   }
   return ExitCode::Done;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/log.h"
+#include "base/plain_text.h"
 #include "cli/commands/commands.h"
 #include "cli/irace/ablation_way.h"
 #include "cli/irace/irace_actions.h"
@@ -92,7 +93,7 @@ Expected<StorePlace> place_of(Output& output, const IraceCommandLine& line,
 }
 
 std::string instances_text(const std::string& what, const std::vector<std::string>& instances) {
-  std::string text = "# " + std::to_string(instances.size()) + " " + what + " instances\n";
+  std::string text = "# " + counted(instances.size(), what + " instance") + "\n";
   for (const std::string& instance : instances)
     text += "#   " + instance + "\n";
   return text;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "base/process/guard.h"
 #include "cli/irace/irace_console.h"
 #include "coordinator/campaign/method_space.h"
@@ -114,8 +115,8 @@ ExitCode check_target(Output& output, const IraceSetup& setup, const Campaign& c
   const auto configurations = contestants(setup, race_on(campaign, mission), repair);
   if (!configurations)
     return fail(output, ExitCode::Failed, with_irace_option_names(configurations.error()));
-  output.out << fmt::format("# {}: Checking the target: {} calls\n", irace_date(),
-                            configurations->size());
+  output.out << fmt::format("# {}: Checking the target: {}\n", irace_date(),
+                            counted(configurations->size(), "call"));
   Trial trial(output, *campaign.target);
   const std::string& instance = mission.instances.training.front();
   std::vector<std::int64_t> numbers;

@@ -74,7 +74,7 @@ Expected<std::string> MachineFiler::text_of(CandidateId candidate) {
       cells[0].text, cells[1].text, cells[2].text, cells[3].text, cells[4].text, cells[5].text);
   std::string text = "# " + to_string(design_of(candidate)) + " " + mission + " " + method +
                      " repetition " + repetition + ": " + to_string(candidate);
-  if (!mean.empty()) text += ", mean " + mean + " over " + runs + " runs";
+  if (!mean.empty()) text += ", mean " + mean + " over " + runs + (runs == "1" ? " run" : " runs");
   const bool is_machine = architecture_of_text(machine) == Architecture::Machine;
   return text + "\n" + (head->flavour.empty() ? "" : head_text(*head)) +
          (is_machine ? "--fsm-config " : "") + machine + "\n";

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/run/run_signals.h"
 #include "coordinator/campaign/campaign_rows.h"
@@ -99,8 +100,9 @@ void CampaignMembers::replay(Member& member, std::vector<DesignPlan> plans) {
   const std::vector<DesignId> ended = ended_designs(store.design_states(), commands);
   const auto scores = store.scores();
   if (!scores.empty()) {
-    print_note(output_, "continuing with " + std::to_string(scores.size()) +
-                            " evaluations that are in " + file);
+    print_note(output_, "continuing with " +
+                            counted(scores.size(), "evaluation that is", "evaluations that are") +
+                            " in " + file);
   }
   member.runner = std::make_unique<CampaignRunner>(
       std::move(plans), by_design(scores, store.steps(), ended), ended, commands);
@@ -174,10 +176,11 @@ void CampaignMembers::print_resume(const Member& member) {
   }
   // Printed even with --quiet, because work is lost.
   print_error(output_, {ErrorKind::Unavailable,
-                        std::to_string(member.store->scores().size()) +
-                            " evaluations are stored; " + std::to_string(member.unwritten) +
-                            " more could not be written, and are made again when the same command "
-                            "continues",
+                        counted(member.store->scores().size(), "evaluation is", "evaluations are") +
+                            " stored; " +
+                            counted(member.unwritten, "more could not be written, and is",
+                                    "more could not be written, and are") +
+                            " made again when the same command continues",
                         store});
 }
 

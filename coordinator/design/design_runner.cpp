@@ -7,6 +7,7 @@
 
 #include "base/assert.h"
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "programs/cost.h"
 
 namespace swarmsmith {
@@ -125,7 +126,8 @@ Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>
     if (command.budget < *least) {
       return bad_input(
           fmt::format(
-              "{} more experiments are too few {}; at least {} are needed", command.budget,
+              "{} too few {}; at least {} are needed",
+              counted(command.budget, "more experiment is", "more experiments are"),
               kind_of(plan_.search) == SearchKind::Irace ? "for another iteration" : "to continue",
               *least),
           name);

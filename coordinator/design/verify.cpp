@@ -199,8 +199,8 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
         fmt::format("{}: the store has a row that does not follow from its scores: {}", name, row));
   }
   if (const std::size_t unasked = unasked_but_used(runner->unasked()); unasked > 0) {
-    complaints.push_back(
-        fmt::format("{}: the race never asked for {} stored evaluations", name, unasked));
+    complaints.push_back(fmt::format("{}: the race never asked for {}", name,
+                                     counted(unasked, "stored evaluation")));
   }
   if (finished) compare_finished(stored, replayed, name, complaints);
 }

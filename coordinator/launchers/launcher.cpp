@@ -1,11 +1,13 @@
 #include "coordinator/launchers/launcher.h"
 
+#include "base/plain_text.h"
+
 namespace swarmsmith {
 
 std::string to_text(const LauncherStatus& status) {
   std::string text = status.name + ": " + std::to_string(status.running) + " of " +
-                     std::to_string(status.wanted) + " workers run";
-  if (status.pending > 0) text += ", " + std::to_string(status.pending) + " wait";
+                     counted(status.wanted, "worker runs", "workers run");
+  if (status.pending > 0) text += ", " + counted(status.pending, "waits", "wait");
   if (!status.waits_for.empty()) text += " (" + status.waits_for + ")";
   if (!status.note.empty()) text += "; " + status.note;
   return text;

@@ -48,7 +48,7 @@ const Case* Cases::find(PackedKey key) const {
   return at == open_.end() ? nullptr : &at->second;
 }
 
-std::size_t Cases::of_nobody() const {
+std::size_t Cases::without_worker() const {
   return static_cast<std::size_t>(
       std::ranges::count_if(open_, [](const auto& each) { return each.second.said.empty(); }));
 }

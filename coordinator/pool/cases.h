@@ -71,7 +71,7 @@ class Cases {
   std::size_t size() const { return open_.size(); }
   std::size_t audits() const { return audits_.size(); }
   /// The number of cases without a worker's statement.
-  std::size_t of_nobody() const;
+  std::size_t without_worker() const;
   /// Forgets the cases of a campaign that was stopped; returns those that were open.
   std::vector<Case> forget(std::uint32_t campaign);
 

@@ -52,7 +52,7 @@ void Scheduler::on_results(const Sender& sender, std::span<const Result> results
   if (entry == nullptr) return;
   SendAcknowledged acknowledged{entry->peer, entry->hello.incarnation, {}};
   for (const Result& result : results) {
-    // A result counts if its worker has, or had, a lease for it: else anybody could send scores.
+    // A result counts if its worker has, or had, a lease for it: else any client could send scores.
     // A refused one is acknowledged, so that the worker does not send it again.
     const bool may = trust_->may_answer(*entry, result);
     if (!may) ++book_->counters.unleased;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "base/plain_text.h"
 #include "storage/answer.h"
 
 namespace swarmsmith {
@@ -273,8 +274,9 @@ void Trust::convict(Principal& principal, WorkerNumber worker, const std::string
     if (unchecked == 0 || book_->is_stopped(campaign)) continue;
     book_->stop(campaign,
                 "scores in the store are not reliable: " + evidence + ", and " +
-                    std::to_string(unchecked) + " results of " + principal.name +
-                    " are stored without a check. `swarmsmith recover STORE --without-key \"" +
+                    counted(unchecked, "result") + " of " + principal.name +
+                    (unchecked == 1 ? " is" : " are") +
+                    " stored without a check. `swarmsmith recover STORE --without-key \"" +
                     key_of_principal(principal.name) +
                     "\" -o NEW.db` makes a store without its results, and the campaign continues "
                     "from there with --store NEW.db",
@@ -366,11 +368,6 @@ void Trust::drop_waiting(Principal& principal, std::optional<WorkerNumber> worke
     if (record != nullptr && !cases_.knows(key)) book_->leases.unpark(*record);
     return true;
   });
-}
-
-bool Trust::is_cast_out(const Said& said) const {
-  const WorkerEntry* entry = workers_->of_number(said.worker);
-  return entry != nullptr && entry->quarantined;
 }
 
 std::vector<std::string> Trust::forgive(std::string_view word, const std::string& by,

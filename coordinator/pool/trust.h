@@ -111,8 +111,6 @@ class Trust {
   void quarantine_process(Principal& principal, WorkerNumber worker, const std::string& reason,
                           TimePoint now);
   void isolate(WorkerEntry& entry, const std::string& sentence, TimePoint now);
-  /// Whether the worker of this statement is in quarantine.
-  bool is_cast_out(const Said& said) const;
 
   // trust_rulings.cpp
   void dispute(WorkerEntry& entry, const DoneEntry& known, const Result& result);

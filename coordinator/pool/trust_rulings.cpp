@@ -58,7 +58,7 @@ void Trust::claim(WorkerEntry& entry, TaskRecord& record, Said::What what) {
 }
 
 void Trust::rule_on_stray(TaskRecord& record) {
-  if (cases_.of_nobody() > 0 || book_->options.evaluates_programs) return;
+  if (cases_.without_worker() > 0 || book_->options.evaluates_programs) return;
   record.strays = 0;
   book_->leases.park(record);
   cases_.open(record.task, std::nullopt, false);
@@ -222,7 +222,7 @@ void Trust::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now)
             "it gave " + text_of(said) + " for the evaluation of " + name_of(unpack(ruling.key)) +
                 ", and this host " + text_beside(said, ruling),
             now);
-  } else if (is_decided && !is_cast_out(said)) {
+  } else if (is_decided) {
     ++principal->standing(said.worker).confirmed;
   }
   if (said.on_trial) try_waiting(*principal, said.worker, now);

@@ -216,7 +216,7 @@ void Race::close_task() {
   }
   // 9.3.9. A task on which only elites were run has no test, and counts no more than a task without
   // runs.
-  const bool counts = !ran.empty() && !only_elites && !anybody_protected(progress_) &&
+  const bool counts = !ran.empty() && !only_elites && !any_protected(progress_) &&
                       step.task > settings_.first_test && is_test_point(progress_.task);
   const bool dropped = step.marker == '-' || step.marker == 'c';
   if (counts) tests_without_drop_ = dropped ? 0 : tests_without_drop_ + 1;

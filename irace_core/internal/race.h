@@ -35,7 +35,7 @@ class Race {
   /// The reason why the race stopped, as text.
   const std::string& stop_reason() const { return *stop_; }
   /// Whether all contestants were rejected, so that there is no result.
-  bool nobody_left() const { return alive_.empty(); }
+  bool none_left() const { return alive_.empty(); }
   /// An error of the target with which no race can continue: a time above its bound, or no time
   /// although bounds need one. The race is then finished, and its survivors are meaningless.
   const std::optional<Error>& failure() const { return failure_; }
@@ -120,7 +120,7 @@ class Race {
   // race_plan.cpp: which runs are needed, and when a race ends
   /// Whether the result is known from before or was measured in this race.
   bool has_result(std::size_t column, std::size_t task) const;
-  bool anybody_protected(const Progress& progress) const;
+  bool any_protected(const Progress& progress) const;
   /// Columns that are alive and have no result on the next task, by id (rule 9.3.1).
   std::vector<std::size_t> to_run(const Progress& progress) const;
   std::vector<std::size_t> by_id(std::vector<std::size_t> columns) const;

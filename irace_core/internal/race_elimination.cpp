@@ -161,11 +161,11 @@ void Race::drop(const std::vector<std::size_t>& columns) {
 /// stop, an alive configuration must have a result on each of them).
 void Race::find_uncovered() {
   uncovered_ = static_cast<std::size_t>(settings_.new_pairs + settings_.past_pairs);
-  const auto anybody_has = [&](std::size_t task) {
+  const auto any_has = [&](std::size_t task) {
     return std::any_of(alive_.begin(), alive_.end(),
                        [&](std::size_t c) { return has_result(c, task); });
   };
-  while (uncovered_ > 0 && anybody_has(uncovered_ - 1))
+  while (uncovered_ > 0 && any_has(uncovered_ - 1))
     --uncovered_;
 }
 

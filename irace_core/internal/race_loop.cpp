@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 
@@ -82,8 +83,8 @@ Expected<void> IteratedRace::State::begin() {
   if (time) return begin_estimate();
   const std::int64_t least = schedule_.minimum_budget();
   if (budget() < least) {
-    return bad_input("a budget of " + std::to_string(budget()) +
-                         " experiments is too small: with these settings it must be at least " +
+    return bad_input("a budget of " + counted(budget(), "experiment") +
+                         " is too small: with these settings it must be at least " +
                          std::to_string(least),
                      "max_experiments");
   }

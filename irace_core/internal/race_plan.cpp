@@ -31,7 +31,7 @@ bool Race::has_result(std::size_t column, std::size_t task) const {
   return task < costs_[column].size() && !std::isnan(costs_[column][task]);
 }
 
-bool Race::anybody_protected(const Progress& progress) const {
+bool Race::any_protected(const Progress& progress) const {
   return std::any_of(alive_.begin(), alive_.end(),
                      [&](std::size_t c) { return progress.protection[c] > 0; });
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/assert.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith::irace {
 
@@ -67,8 +68,9 @@ Expected<bool> Schedule::shrink_to(std::int64_t remaining) {
   bool changed = false;
   for (; minimum_budget() > remaining; changed = true) {
     if (iterations_ == 1) {
-      return bad_input("the remaining time is enough for about " + std::to_string(remaining) +
-                           " experiments, and a single iteration needs at least " +
+      return bad_input("the remaining time is enough for about " +
+                           counted(remaining, "experiment") +
+                           ", and a single iteration needs at least " +
                            std::to_string(minimum_budget()) + ": give more time",
                        "max_time");
     }

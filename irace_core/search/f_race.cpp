@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "base/plain_text.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -30,9 +32,8 @@ Expected<void> check_f_race(const Scenario& scenario, const FRaceOptions& option
   const std::int64_t least = options.configurations * first_test_cost(scenario);
   if (budget >= least) return {};
   return bad_input("`configurations` is " + std::to_string(options.configurations) +
-                       ", and a budget of " + std::to_string(budget) +
-                       " experiments is too small for so many: it must be at least " +
-                       std::to_string(least),
+                       ", and a budget of " + counted(budget, "experiment") +
+                       " is too small for so many: it must be at least " + std::to_string(least),
                    "max_experiments");
 }
 

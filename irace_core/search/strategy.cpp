@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/assert.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith::search {
 
@@ -58,9 +59,8 @@ std::vector<std::pair<std::int64_t, std::int64_t>> all_on(std::span<const std::i
 
 Error too_small(std::int64_t budget, std::int64_t least) {
   return {ErrorKind::BadInput,
-          "a budget of " + std::to_string(budget) +
-              " experiments is too small: with these settings it must be at least " +
-              std::to_string(least),
+          "a budget of " + counted(budget, "experiment") +
+              " is too small: with these settings it must be at least " + std::to_string(least),
           "max_experiments"};
 }
 

@@ -269,9 +269,9 @@ void Gate::weigh(TimePoint now) {
   weighed_ = now;
 }
 
-/// Data that was received and not taken is in libzmq's queues. libzmq limits the number of whole
-/// messages there, but neither their bytes nor the parts of a message without an end. A part of two
-/// bytes takes 64 bytes there, so there is one limit for the waiting bytes, and one for memory.
+/// Data that was received and not taken is in libzmq's queues, which have no limits of their own. A
+/// message of two bytes takes 64 bytes there, so there is one limit for the waiting bytes, and one
+/// for memory.
 void Gate::weigh_all(std::size_t resident) {
   std::vector<std::pair<std::uint64_t, Open*>> waiting;
   std::unordered_map<std::string, std::uint64_t> of_host;

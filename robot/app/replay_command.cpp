@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "robot/app/commands.h"
 #include "robot/log/log_file.h"
@@ -39,7 +40,8 @@ ExitCode replay(const std::string& file, Output& output) {
     output.out << fmt::format("{}: cycle {}: {}\n", file, difference->cycle, difference->what);
   } else {
     output.out << fmt::format(
-        "{}: {} cycles, all commands as the controller gives them; {}\n", file, replayed->stepped,
+        "{}: {}, all commands as the controller gives them; {}\n", file,
+        counted(replayed->stepped, "cycle"),
         end ? name_of(end->verdict) : "INVALID: the node did not end the run");
   }
   return difference ? ExitCode::Failed : ExitCode::Done;

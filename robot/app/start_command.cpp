@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "base/process/stop_signal.h"
 #include "base/text/json.h"
 #include "robot/app/commands.h"
@@ -73,10 +74,10 @@ class Teller {
 /// its last state was.
 std::string unknown(const RolledRobot& robot) {
   return fmt::format(
-      "{}: unknown; it was last heard {:.1f} s ago, {} after {} cycles: check the robot and its "
+      "{}: unknown; it was last heard {:.1f} s ago, {} after {}: check the robot and its "
       "log",
       robot.name, seconds_of(now_on_both_clocks().clock - robot.heard), name_of(robot.state->phase),
-      robot.state->cycle);
+      counted(robot.state->cycle, "cycle"));
 }
 
 /// The verdict of each robot; "unknown" for a robot that did not report the end of its run.
@@ -112,8 +113,8 @@ ExitCode answer(const StartWords& words, const RunStarter& starter, const std::s
         output.out << unknown(robot) << "\n";
         continue;
       }
-      output.out << fmt::format("{}: {} after {} cycles, {}\n", robot.name,
-                                name_of(robot.state->phase), robot.state->cycle,
+      output.out << fmt::format("{}: {} after {}, {}\n", robot.name, name_of(robot.state->phase),
+                                counted(robot.state->cycle, "cycle"),
                                 name_of(robot.state->verdict));
       for (const std::string& reason : robot.state->reasons)
         output.out << "  " << reason << "\n";

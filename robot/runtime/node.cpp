@@ -7,6 +7,7 @@
 
 #include "base/assert.h"
 #include "base/hash.h"
+#include "base/plain_text.h"
 #include "robot/runtime/robot_kind.h"
 #include "sim/control/flavour_file.h"
 #include "sim/control/used_senses.h"
@@ -574,16 +575,16 @@ void RobotNode::judge() {
   for (const Feed feed : kAllFeeds) {
     const std::size_t i = index_of(feed);
     if (held_for_[i] == 0) continue;
-    add(RunVerdict::Degraded,
-        fmt::format("{} was silent for up to {:.2f} s: {} cycles were not stepped", name_of(feed),
-                    seconds_of(longest_silence_[i]), held_for_[i]));
+    add(RunVerdict::Degraded, fmt::format("{} was silent for up to {:.2f} s: {} not stepped",
+                                          name_of(feed), seconds_of(longest_silence_[i]),
+                                          counted(held_for_[i], "cycle was", "cycles were")));
   }
   for (const Standing* standing : {&by_driver_, &by_operator_}) {
     if (standing->cycles == 0 || (standing == &by_driver_ && driver_failed_)) continue;
     add(RunVerdict::Degraded,
-        fmt::format("{}, for up to {:.2f} s, at {:.1f} s: {} cycles were not stepped",
-                    standing->what, seconds_of(standing->longest), standing->at_s,
-                    standing->cycles));
+        fmt::format("{}, for up to {:.2f} s, at {:.1f} s: {} not stepped", standing->what,
+                    seconds_of(standing->longest), standing->at_s,
+                    counted(standing->cycles, "cycle was", "cycles were")));
   }
   if (clock_ && !lock_step_) {
     for (const std::string& doubt : driver_.doubts())
@@ -593,7 +594,7 @@ void RobotNode::judge() {
     add(RunVerdict::Valid, step);
   if (cut_ > 0) {
     add(RunVerdict::Degraded,
-        fmt::format("speeds were cut to {} m/s in {} cycles", settings_.max_mps, cut_));
+        fmt::format("speeds were cut to {} m/s in {}", settings_.max_mps, counted(cut_, "cycle")));
   }
 }
 

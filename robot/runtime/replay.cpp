@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "base/plain_text.h"
 #include "robot/runtime/node.h"
 #include "sim/control/control_software.h"
 #include "sim/control/flavour_file.h"
@@ -31,7 +32,8 @@ std::string difference(const LogRow& row, const Command& command, int state, std
   if (row.state != state)
     return fmt::format("the log has state {}, the controller is in {}", row.state, state);
   if (row.drawn != drawn)
-    return fmt::format("the log has {} random numbers, the controller drew {}", row.drawn, drawn);
+    return fmt::format("the log has {}, the controller drew {}",
+                       counted(row.drawn, "random number"), drawn);
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "robot/transport/messages.h"
 #include "sim/files/robot_file.h"
 #include "sim/robot/robot_fields.h"
@@ -66,7 +67,7 @@ std::optional<std::string> no_node_drives(const Robot& robot) {
   } else if (kOfRadio.acts_on(robot)) {
     has = "a radio for neighbours";
   } else if (rays != kRangeSensors || lights != kRangeSensors) {
-    has = fmt::format("{} proximity and {} light sensors", rays, lights);
+    has = fmt::format("{} proximity and {}", rays, counted(lights, "light sensor"));
   } else {
     return std::nullopt;
   }

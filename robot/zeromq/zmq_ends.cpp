@@ -464,7 +464,7 @@ Expected<NodeServer> zmq_robot_end(const std::string& name, NodeServerOptions op
   }
   if (!options.keys && !is_loopback(address->host)) {
     return bad_input(
-        "other hosts can reach this address: it needs keys, else anybody could drive the robot "
+        "other hosts can reach this address: it needs keys, else any program could drive the robot "
         "(`swarmsmith keygen` makes them)",
         options.endpoint);
   }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 
+#include "base/plain_text.h"
 #include "sim/control/flavour.h"
 #include "sim/control/internal/module_text.h"
 
@@ -19,8 +20,7 @@ std::optional<Error> check_state(const Machine& machine, std::size_t index,
   }
   if (static_cast<int>(state.transitions.size()) > flavour.most_transitions) {
     return Error{ErrorKind::BadInput,
-                 "a state has at most " + std::to_string(flavour.most_transitions) + " transitions",
-                 where};
+                 "a state has at most " + counted(flavour.most_transitions, "transition"), where};
   }
   for (std::size_t j = 0; j < state.transitions.size(); ++j) {
     const Transition& transition = state.transitions[j];

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/plain_text.h"
 #include "storage/internal/columns.h"
 
 namespace swarmsmith {
@@ -149,7 +150,7 @@ std::string RowSums::differences(const RowSums& found) const {
     text += fmt::format("{}{} (", text.empty() ? "" : ", ", summed(i).table);
     text += sums_[i].rows == found.sums_[i].rows
                 ? "other values)"
-                : fmt::format("{} rows for {})", found.sums_[i].rows, sums_[i].rows);
+                : fmt::format("{} for {})", counted(found.sums_[i].rows, "row"), sums_[i].rows);
   }
   return text;
 }

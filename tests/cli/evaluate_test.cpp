@@ -100,7 +100,7 @@ TEST(Evaluate, TakesTheWorldThatAFileSays) {
   EXPECT_EQ(run({"evaluate", file, "--mission", "aggregation", "--profile", "argos3"}).code, 0);
 }
 
-TEST(Evaluate, AsksForAFlavourThatNobodySays) {
+TEST(Evaluate, AsksForAFlavourThatIsNotGiven) {
   const TemporaryFolder folder;
   write_file(folder / "best.fsm", kExploreText + "\n");
   for (const std::string& machine : {kExploreText, (folder / "best.fsm").string()}) {

@@ -102,7 +102,7 @@ TEST(StatusLine, NothingIsLeftOfAFinishedDesign) {
   EXPECT_EQ(model.current()->id, DesignId{2});
 }
 
-TEST(StatusLine, SaysWhenNobodyWorks) {
+TEST(StatusLine, SaysWhenThereAreNoWorkers) {
   EXPECT_THAT(plain_status(models_after({}), LiveStatus{}), HasSubstr("no workers"));
 }
 

@@ -137,7 +137,7 @@ TEST(StatusText, PromisesNoEndWhenNothingMoves) {
   EXPECT_THAT(status_summary(status), HasSubstr("NOTHING IS STORED"));
 }
 
-TEST(StatusText, HasNothingToShowBeforeAnybodyCame) {
+TEST(StatusText, HasNothingToShowBeforeAWorkerCame) {
   EXPECT_THAT(joined(status_lines({}, {80, 24})), HasSubstr("no heartbeats yet"));
   EXPECT_THAT(status_lines(cluster(), {80, 2}), ::testing::SizeIs(2));
 }

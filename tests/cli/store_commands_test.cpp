@@ -176,7 +176,7 @@ TEST_F(Export, WritesMachinesThatEvaluateReads) {
   const Ran ran = run_well({"evaluate", file, "--json"});
   const std::string text = run({"export", store_}).out;
   EXPECT_THAT(text, StartsWith("# d1 aggregation watermelon repetition 1: c1, mean 2.5 over 1 "
-                               "runs\n#: format = 1\n#: flavour = \"watermelon\"\n"));
+                               "run\n#: format = 1\n#: flavour = \"watermelon\"\n"));
   EXPECT_THAT(text, EndsWith("--fsm-config --nstates 1 --s0 0 --rwm0 10\n"));
 }
 

@@ -111,7 +111,7 @@ TEST(Hostile, AnyNumberOfForgivingsChangesNoAnswer) {
 }
 
 /// The check itself: without audits lies come into the store, and are known as such.
-TEST(Hostile, LiesThatNobodyLooksForAreSeenByTheTest) {
+TEST(Hostile, LiesThatAreNotLookedForAreSeenByTheTest) {
   std::size_t lies = 0;
   int escaped = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

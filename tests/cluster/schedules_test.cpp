@@ -118,7 +118,7 @@ TEST(SimulatedCluster, NeedsFewEventsWithoutFaults) {
   EXPECT_GT(cluster.audited(), 0U);
 }
 
-TEST(SimulatedCluster, CountsNobodyAsLostWhoWasToldToEnd) {
+TEST(SimulatedCluster, CountsNoWorkerAsLostThatWasToldToEnd) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SimulatedCluster cluster({.seed = seed,
                               .faults = {.worker_drains = 20,

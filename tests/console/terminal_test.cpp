@@ -17,7 +17,7 @@ class Screens : public ::testing::Test {
   Output output_{.out = stream_, .err = stream_};
 };
 
-TEST_F(Screens, ShowTextWhoeverWritesIt) {
+TEST_F(Screens, ShowTextOfAnyWriter) {
   stream_ << "host a\x1b]0;mine\x07" << 7 << '\x9b' << "x\n";
   EXPECT_EQ(shown(), "host a\\u001b]0;mine\\u00077\\x9bx\n");
 }

@@ -141,7 +141,7 @@ class Live(DashboardTest):
         self.assertNotEqual(again.get("live")["boot"], boot)
         page.wait(f"{USED} > {used}", timeout=60)
 
-    def test_who_has_the_token_may_act_and_nobody_else(self):
+    def test_only_clients_with_the_token_may_act(self):
         serving = self.running()
         token = serving.token or pathlib.Path(f"{self.store}.token").read_text().strip()
         pause = "api/v1/c1/designs/d1/pause"
@@ -213,7 +213,7 @@ class Live(DashboardTest):
                 self.assertEqual(page.hosts(), {f"127.0.0.1:{proxy.server_port}"})
                 page.close()
 
-    def test_an_exported_file_opens_from_disk_and_asks_nobody(self):
+    def test_an_exported_file_opens_from_disk_and_asks_no_server(self):
         store = finished_store()
         file = self.folder / "export.html"
         ended_well(call("dashboard", store, "--export", file))
@@ -233,7 +233,7 @@ class Live(DashboardTest):
                 self.assertEqual(page.js("document.querySelectorAll('textarea, [href*=\"/sql\"]').length"), 0)
                 page.close()
 
-    def test_a_page_that_nobody_sees_asks_nothing(self):
+    def test_a_hidden_page_asks_nothing(self):
         serving = self.running()
         asked = "performance.getEntriesByType('resource').length"
         hide = "Object.defineProperty(document, 'hidden', {value: true, configurable: true}); document.dispatchEvent(new Event('visibilitychange')); 0"

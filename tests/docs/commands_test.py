@@ -174,7 +174,7 @@ class Commands(unittest.TestCase):
 
 
 class TheCheck(unittest.TestCase):
-    def test_finds_what_nobody_runs(self):
+    def test_finds_what_is_not_run(self):
         text = ("```\nswarmsmith a\n```\n\n    ssh node1\n\n```text\nswarmsmith run [FILE]\n```\n- item\n    swarmsmith b\n\n"
                 "<!-- not run: needs luck -->\n```sh\nswarmsmith c\n```\n```sh\nswarmsmith d\n```\n")
         self.assertEqual(list(unmarked_commands(text)), [(1, "swarmsmith a"), (5, "ssh node1")])

@@ -189,7 +189,7 @@ class Dashboard(ProgramTest):
         self.assertEqual(process.wait(timeout=30), 0)
         self.assertFalse(os.path.exists(f"{store}.token"), "the secret ends with its process")
 
-    def test_nobody_acts_on_an_imported_campaign(self):
+    def test_an_imported_campaign_takes_no_commands(self):
         self.store = self.folder / "imported.db"
         log = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden/argos/argos-fsms.csv"
         ended_well(call("import", log, "--flavour", "watermelon-argos3", "--mission", "aggregation", "--into", self.store))

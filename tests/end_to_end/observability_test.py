@@ -108,7 +108,7 @@ class Observability(ProgramTest):
         self.assertEqual(self.get("/nothing")[0], 404)
         self.assertIn(self.get("/status", method="POST", body=b"x" * 1000)[0], (405, 413))
 
-    def test_slow_clients_are_cut_off_and_hold_up_nobody(self):
+    def test_slow_clients_are_cut_off_and_hold_up_no_other(self):
         self.serve(workers=0)
         slow = [socket.create_connection(("127.0.0.1", self.port)) for _ in range(4)]
         for one in slow:

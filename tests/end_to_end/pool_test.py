@@ -59,7 +59,7 @@ class Pool(ProgramTest):
         ended_well(call("run", *self.files, "--workers", "2"))
         self.assert_as_alone()
 
-    def test_a_finished_one_prints_its_result_and_stops_nobody(self):
+    def test_a_finished_one_prints_its_result_and_stops_no_other(self):
         self.assertEqual(call("run", self.files[0]).returncode, 0)
         done = ended_well(call("run", *self.files))
         self.assertIn("campaign first\nd1", done.stdout)

@@ -55,7 +55,7 @@ CHANGES = {
     "UPDATE evaluation SET iteration = iteration + 1": "right",
     "UPDATE evaluation SET wall_us = wall_us + 1 WHERE pair = 2": "evaluated",
     "UPDATE evaluation SET source = source + 1": "doubted",
-    "UPDATE source SET name = 'profile of somebody'": "doubted",
+    "UPDATE source SET name = 'another profile'": "doubted",
     "UPDATE campaign SET state = 'stopped'": "doubted",
     "UPDATE candidate SET machine = (SELECT machine FROM candidate WHERE id = 3), parameters = (SELECT parameters FROM"
     " candidate WHERE id = 3), code = (SELECT code FROM candidate WHERE id = 3) WHERE id = 1": "right",

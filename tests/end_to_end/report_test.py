@@ -62,7 +62,7 @@ class Report(ProgramTest):
     def json_answer(self, *arguments, cwd=None):
         return json.loads(self.answer(*arguments, "--json", cwd=cwd))
 
-    def test_the_report_is_one_page_that_asks_nobody(self):
+    def test_the_report_is_one_page_that_asks_no_server(self):
         file = self.folder / "r.html"
         self.assertIn("r.html", self.answer("report", self.store, "-o", file))
         text = file.read_text()

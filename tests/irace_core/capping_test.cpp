@@ -127,7 +127,7 @@ TEST(CappedRace, LeavesARejectedEliteOutOfTheBounds) {
   EXPECT_THAT(race.wanted(), ElementsAre(RaceRun{0, 2, 8.01}));
 }
 
-TEST(CappedRace, LetsCappingDecideWhereNobodyPassesBoth) {
+TEST(CappedRace, LetsCappingDecideWhereNonePassesBoth) {
   // The first is a little worse on five pairs and much better on the sixth: the signed ranks drop
   // it (p = 28/64), its mean drops the second.
   RaceSettings settings = capped_race();

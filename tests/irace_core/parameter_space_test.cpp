@@ -158,7 +158,7 @@ TEST(ParameterSpace, ChecksConfigurations) {
   EXPECT_THAT(verdict({1, 6}), HasSubstr("n: 6 is not in its domain (1, 5)"));
   EXPECT_THAT(verdict({1, 2.5}), HasSubstr("not a whole number"));
   EXPECT_THAT(verdict({2, none}), HasSubstr("c: 2 is not in its domain"));
-  EXPECT_THAT(verdict({1}), HasSubstr("1 values"));
+  EXPECT_THAT(verdict({1}), HasSubstr("1 value,"));
 }
 
 TEST(ParameterSpace, SaysNumbersWithTheDigitsThatDecide) {

@@ -95,7 +95,7 @@ Scenario small_scenario(std::uint64_t seed) {
   return scenario;
 }
 
-TEST(PostselectionRace, UsesWhatIsLeftAndProtectsNobodyLonger) {
+TEST(PostselectionRace, UsesTheRestAndProtectsNoneLonger) {
   int raced = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     auto race = IteratedRace::start(small_space(), small_scenario(seed)).value();

@@ -107,7 +107,7 @@ TEST(Race, TellsTheBestByMeansInTTests) {
   EXPECT_EQ(steps[4].best, 2);
 }
 
-TEST(NonElitistRace, ProtectsNobodyAndHasNoLimit) {
+TEST(NonElitistRace, ProtectsNoneAndHasNoLimit) {
   RaceSettings settings = race_on(12);
   settings.elitist = false;
   settings.elitist_limit = 1;

@@ -214,15 +214,15 @@ TEST(Race, StopsWhereRejectionsLeaveTooFew) {
   EXPECT_EQ(race.survivors().size(), 2U);
 }
 
-TEST(Race, EndsWithNobodyWhenAllAreRejected) {
+TEST(Race, EndsWithNoneWhenAllAreRejected) {
   Race race(first_race(), newcomers(3));
   answer(race, [](std::int64_t, std::int64_t) { return kRejects; });
   EXPECT_TRUE(race.finished());
-  EXPECT_TRUE(race.nobody_left());
+  EXPECT_TRUE(race.none_left());
   EXPECT_THAT(race.survivors(), IsEmpty());
 }
 
-TEST(Race, EndsAfterTestsThatDropNobody) {
+TEST(Race, EndsAfterTestsThatDropNone) {
   RaceSettings settings = first_race();
   settings.elitist_limit = 2;
   Race race(settings, newcomers(4));

@@ -77,14 +77,16 @@ class RawPeer {
     return true;
   }
 
-  /// Takes what there is.
-  void read() const {
+  /// Takes what there is; true if the connection is closed.
+  bool read() const {
     // With a small one the system waits for its timers between two pieces.
     const int large = kMiB;
     setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &large, sizeof large);
     std::vector<char> bytes(kMiB);
-    while (::recv(socket_, bytes.data(), bytes.size(), 0) > 0) {
-    }
+    ssize_t got = 1;
+    while (got > 0)
+      got = ::recv(socket_, bytes.data(), bytes.size(), 0);
+    return got == 0 || errno != EAGAIN;
   }
 
  private:
@@ -92,8 +94,8 @@ class RawPeer {
 };
 
 /// A part of a message, after which others come.
-std::string part_of(std::size_t size) {
-  std::string part = "\x03";
+std::string part_of(std::size_t size, char flags = 3) {
+  std::string part(1, flags);
   for (int byte = 7; byte >= 0; --byte)
     part += static_cast<char>(size >> (8 * static_cast<unsigned>(byte)));
   return part + std::string(size, 'x');
@@ -142,6 +144,21 @@ TEST_F(Budgets, AMessageWithoutAnEndIsCutOff) {
     said += part.size();
   EXPECT_LT(said, 100 * kMiB);
   EXPECT_TRUE(eventually([&] { return refused("too much at once") > 0; }));
+}
+
+TEST_F(Budgets, CuttingOffAConnectionWithManyMessagesLeavesTheOthers) {
+  listen({.heartbeat_timeout = std::chrono::minutes(1), .most_waiting = kMiB});
+  // libzmq's own limit would be 1000.
+  std::string messages;
+  for (int i = 0; i < 1500; ++i)
+    messages += part_of(2000, 2);
+  const RawPeer first(server->endpoint());
+  first.say(messages);
+  EXPECT_TRUE(eventually([&] { return refused("too much at once") == 1; }));
+  const RawPeer second(server->endpoint());
+  second.say(messages.substr(0, 2 * kMiB));
+  EXPECT_TRUE(eventually([&] { return second.read(); }));
+  EXPECT_EQ(refused("too much at once"), 2U);
 }
 
 TEST_F(Budgets, AMessageOfNothingButEmptyPartsIsCutOff) {

@@ -178,10 +178,11 @@ TEST_F(LockedDoor, CutsOffWhoIsNotListedAnyMore) {
   desk->send("one");
   ASSERT_EQ(next_at_server(), "one");
   const PeerId peer = last.peer;
+  desk->send("two");
+  server->wait(wakeup, std::chrono::minutes(1));  // until it has arrived
   const std::vector<PeerId> gone = server->admit({client(worker, Role::Worker)});
   EXPECT_EQ(gone, std::vector<PeerId>{peer});
   EXPECT_EQ(server->send(peer, "to no peer"), SendStatus::Gone);
-  desk->send("two");
   EXPECT_TRUE(eventually([&] { return desk->lost(); }));
   EXPECT_FALSE(server->receive(last));
   EXPECT_EQ(refused("revoked key"), 1U);

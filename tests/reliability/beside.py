@@ -1,5 +1,5 @@
-"""What stands beside a campaign: an ordinary client of its store, people who look at it, and somebody
-who overhears what it has promised."""
+"""What stands beside a campaign: an ordinary client of its store, people who look at it, and an
+observer that notes what it has promised."""
 import contextlib
 import functools
 import sqlite3

@@ -182,7 +182,7 @@ def at_one_moment(moving, to):
 
 
 def of_a_copy(moving, to):
-    """A slow copy, which somebody opens: its log is folded in. Then that is copied."""
+    """A slow copy, which a client opens: its log is folded in. Then that is copied."""
     first = to.with_name(to.name + "-first")
     first.mkdir()
     copy(moving, first, ("", "-wal"), lambda: (fold(moving), more(moving)), ("", False))

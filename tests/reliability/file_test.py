@@ -15,7 +15,7 @@ REFUSED = 3  # exit code: the store cannot be used
 
 
 def has_lock(pid, store):
-    """Whether a process has SQLite's shared lock on the store: it has lost it when somebody in it has
+    """Whether a process has SQLite's shared lock on the store: it has lost it when a part of it has
     closed the file besides SQLite, and the next ordinary client that leaves takes the log away."""
     about = os.stat(store)
     place = f"{os.major(about.st_dev):02x}:{os.minor(about.st_dev):02x}:{about.st_ino}"

@@ -43,7 +43,7 @@ class Liars(Visited):
         copies = rows(self.store, "select count(*) from attempt where outcome = 'second copy'")
         self.assertGreater(numbers["expired"] + copies[0][0], 0)
 
-    def test_results_that_nobody_asked_for(self):
+    def test_results_that_were_not_asked_for(self):
         peer, welcome = self.enter()
         known = rows(self.store, "select candidate, pair, score, state_digest from evaluation "
                                  "where purpose = 0 limit 50")
@@ -102,7 +102,7 @@ class Liars(Visited):
         self.assertEqual(found["who"], "loopback")
         self.assertGreater(found["worker"], 0, "one process of this host")
 
-    def test_somebody_elses_leases(self):
+    def test_leases_of_another_worker(self):
         """It returns and fails what others hold, says old words, and leaves again."""
         peer, welcome = self.enter()
         keys = [{"candidate": c, "purpose": 0, "pair": p} for c in range(1, 200) for p in (1, 2)]

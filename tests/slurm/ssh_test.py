@@ -88,12 +88,12 @@ class SshTest(ProgramTest):
     def wait_for_workers(self, count):
         wait_for(lambda: len(self.workers()) == count, f"{count} workers\n", 30)
 
-    def wait_for_nobody(self):
+    def wait_for_no_process(self):
         wait_for(lambda: not self.started(), "the end of all workers and the referee\n", 30)
 
     def finish(self, process):
         self.assertEqual(process.wait(timeout=200 * PATIENCE), 0, self.said.read_text())
-        self.wait_for_nobody()
+        self.wait_for_no_process()
         self.assert_clean(self.store)
         local = self.folder / "local.db"
         ended_well(self.run_campaign(local, "--workers", "2"))
@@ -131,12 +131,12 @@ class Ssh(SshTest):
         self.wait_for_workers(2)
         send(process.pid, signal.SIGKILL)
         process.wait()
-        self.wait_for_nobody()
+        self.wait_for_no_process()
         process = self.run_by_ssh()
         self.wait_for_workers(2)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(timeout=60 * PATIENCE), 130, self.said.read_text())
-        self.wait_for_nobody()
+        self.wait_for_no_process()
 
     def test_mistakes_are_named(self):
         self.campaign("node1 slot=1\n")
@@ -245,7 +245,7 @@ class ManyHosts(SshTest):
         self.assertLessEqual(self.ssh.turned_away(), 12)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(timeout=60 * PATIENCE), 130, self.said.read_text())
-        self.wait_for_nobody()
+        self.wait_for_no_process()
 
 
 if __name__ == "__main__":

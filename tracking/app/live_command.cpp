@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "base/process/stop_signal.h"
 #include "base/text/json.h"
 #include "console/terminal.h"
@@ -147,7 +148,7 @@ ExitCode answer(Watched& watched, Output& output) {
                       .text()
                << "\n";
   } else {
-    output.out << watched.frames << " frames, " << watched.dropped << " dropped; delay "
+    output.out << counted(watched.frames, "frame") << ", " << watched.dropped << " dropped; delay "
                << std::lround(median_ms) << " ms, 95 % within " << std::lround(late_ms)
                << " ms, at most " << std::lround(most_ms) << " ms\n";
   }

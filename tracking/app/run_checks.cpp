@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/plain_text.h"
 #include "base/suggestion.h"
 #include "sim/control/reference_model.h"
 #include "tracking/rig/rig_file.h"
@@ -135,8 +136,8 @@ std::vector<Error> faults_of_rig(const Rig& rig, const Mission& mission,
   if (rig.robots.size() != static_cast<std::size_t>(mission.robots)) {
     errors.push_back(
         error_of(IssueCode::Config,
-                 "mission " + mission.name + " has " + std::to_string(mission.robots) +
-                     " robots, but the run has " + std::to_string(rig.robots.size()) +
+                 "mission " + mission.name + " has " + counted(mission.robots, "robot") +
+                     ", but the run has " + std::to_string(rig.robots.size()) +
                      "; list in the run log those that took part: robots = [\"rvr1\", ...]",
                  rig.file));
   }

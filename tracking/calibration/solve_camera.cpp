@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/median.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -189,12 +190,12 @@ Expected<CameraSolution> solve_camera(std::span<const BoardView> views, ImageSiz
     solution.views[i].dropped = views[i].seen.size() < kLeastCorners;
   }
   if (used.size() < kLeastViews) {
-    return Unexpected(error_of(
-        IssueCode::CalibrationQuality,
-        fmt::format("only {} views show at least {} corners of the board, but 10 are needed; "
-                    "is the board as described, flat and sharp?",
-                    used.size(), kLeastCorners),
-        ""));
+    return Unexpected(
+        error_of(IssueCode::CalibrationQuality,
+                 fmt::format("only {} at least {} corners of the board, but 10 are needed; "
+                             "is the board as described, flat and sharp?",
+                             counted(used.size(), "view shows", "views show"), kLeastCorners),
+                 ""));
   }
   while (true) {
     const Points points = points_of(views, used);

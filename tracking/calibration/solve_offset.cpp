@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/math.h"
+#include "base/plain_text.h"
 #include "tracking/rig/issue.h"
 
 namespace swarmsmith {
@@ -96,10 +97,10 @@ Expected<OffsetCalibration> solve_offset(std::span<const TagSample> samples) {
   }
   const double turned = turn_of(kept);
   if (!fit) {
-    return refuse(
-        fmt::format("{} samples over {:.0f} degrees are not enough; film the robot turning "
-                    "on the spot, two turns or more",
-                    kept.size(), turned / kDegree));
+    return refuse(fmt::format(
+        "{} over {:.0f} degrees {} not enough; film the robot turning "
+        "on the spot, two turns or more",
+        counted(kept.size(), "sample"), turned / kDegree, kept.size() == 1 ? "is" : "are"));
   }
   const double variance = fit->squares / (static_cast<double>(2 * kept.size()) - 6);
   OffsetCalibration calibration;

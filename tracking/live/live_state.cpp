@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/plain_text.h"
+
 namespace swarmsmith {
 
 namespace {
@@ -63,8 +65,8 @@ std::string live_state_line(const LiveState& state) {
       state.robots.size(), state.dropped);
   if (state.board) {
     const auto reached = std::ranges::count_if(state.board->ninths, [](int n) { return n > 0; });
-    line += fmt::format("; board: {} views, {} of 9 ninths, {:.0f} % of the frame",
-                        state.board->views, reached, 100 * state.board->coverage);
+    line += fmt::format("; board: {}, {} of 9 ninths, {:.0f} % of the frame",
+                        counted(state.board->views, "view"), reached, 100 * state.board->coverage);
   }
   if (!state.issues.empty()) line += "; " + state.issues.front();
   if (state.issues.size() > 1) line += fmt::format(" and {} more", state.issues.size() - 1);

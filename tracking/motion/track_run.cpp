@@ -47,10 +47,11 @@ Expected<std::vector<TrackedCamera>> cameras_of(const Observations& observations
   const std::size_t lengths = span.lengths_s.size();
   if (span.starts_s.size() != observations.cameras.size() ||
       (lengths != 0 && lengths != observations.cameras.size())) {
-    return Unexpected(error_of(IssueCode::Config,
-                               fmt::format("start and length of {} cameras are wanted, of {} given",
-                                           observations.cameras.size(), span.starts_s.size()),
-                               rig.file));
+    return Unexpected(
+        error_of(IssueCode::Config,
+                 fmt::format("start and length of {} are wanted, of {} given",
+                             counted(observations.cameras.size(), "camera"), span.starts_s.size()),
+                 rig.file));
   }
   std::vector<TrackedCamera> cameras;
   for (std::size_t i = 0; i < observations.cameras.size(); ++i) {
@@ -245,10 +246,11 @@ Error missing(const TaggedRobot& robot, const RobotSamples& samples, const Frame
   }
   return error_of(
       IssueCode::RobotMissing,
-      fmt::format("{} was not seen in the first {:.0f} s: {} sightings in all, {} bad fits, {} "
-                  "outside of the arena, {} outliers; check its number, light and start{}",
-                  who, kFirstLook_s, samples.samples.size(), of(Sample::Use::BadFit),
-                  of(Sample::Use::Outside), of(Sample::Use::Outlier), causes),
+      fmt::format("{} was not seen in the first {:.0f} s: {} in all, {}, {} outside of the "
+                  "arena, {}; check its number, light and start{}",
+                  who, kFirstLook_s, counted(samples.samples.size(), "sighting"),
+                  counted(of(Sample::Use::BadFit), "bad fit"), of(Sample::Use::Outside),
+                  counted(of(Sample::Use::Outlier), "outlier"), causes),
       robot.setup.name);
 }
 

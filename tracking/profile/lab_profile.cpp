@@ -148,9 +148,9 @@ class Writer {
     figures_.push_back({name, all, "%", count_text(told), {}});
     text += comment(name, all, told, 100, "%");
     text += fmt::format(
-        "# Counted: {} robots in reach, in single control cycles. In {} more cycles a log has a\n"
+        "# Counted: {} robots in reach, in single control cycles. In {} a log has a\n"
         "# neighbour where no robot was; profiles cannot contain such neighbours.\n",
-        there, phantoms);
+        there, counted(phantoms, "more cycle"));
     const Groups groups = grouped(told.estimates);
     const auto rate = [](std::span<const Estimate> rates) {
       return number_text(rounded(std::clamp(pooled(rates).mean, 0.0, 1.0), 1e4));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "base/plain_text.h"
 #include "sim/mission/footprint.h"
 #include "sim/robot/rvr.h"
 
@@ -78,9 +79,9 @@ std::vector<Error> faults_of(const CameraCalibration& calibration, const CameraL
   const CameraModel& model = calibration.model;
   Faults faults;
   faults.add_if(calibration.views < limits.least_views, kCode,
-                fmt::format("{} usable views, at least {} are needed; take more pictures of the "
+                fmt::format("{}, at least {} are needed; take more pictures of the "
                             "board, 15 or more, from differing sides",
-                            calibration.views, limits.least_views));
+                            counted(calibration.views, "usable view"), limits.least_views));
   const double most_px = rms_limit_px(model, limits);
   faults.add_if(!(calibration.rms_px <= most_px), kCode,
                 fmt::format("RMS reprojection {:.3f} px, limit {:.2f} px ({}; limit {}); is the "
@@ -145,8 +146,9 @@ std::vector<std::string> cautions_of(const CameraCalibration& calibration,
 std::vector<Error> faults_of(const PlaceCalibration& calibration, const PlaceLimits& limits) {
   Faults faults;
   const auto tags = static_cast<int>(calibration.tags.size());
-  faults.add_if(tags < limits.least_tags, IssueCode::ReferenceTags,
-                fmt::format("{} floor tags, at least {} are needed", tags, limits.least_tags));
+  faults.add_if(
+      tags < limits.least_tags, IssueCode::ReferenceTags,
+      fmt::format("{}, at least {} are needed", counted(tags, "floor tag"), limits.least_tags));
   faults.add_if(!(calibration.coverage >= limits.least_coverage), IssueCode::ReferenceTags,
                 fmt::format("the floor tags' hull covers {:.0f} % of the arena, at least {:.0f} % "
                             "is needed, else positions are extrapolated; spread the tags to the "
@@ -202,9 +204,9 @@ std::vector<Error> faults_of(const OffsetCalibration& calibration, const OffsetL
   constexpr IssueCode kCode = IssueCode::SpinQuality;
   Faults faults;
   faults.add_if(calibration.samples < limits.least_samples, kCode,
-                fmt::format("{} usable samples, at least {} are needed; film a longer spin, two "
+                fmt::format("{}, at least {} are needed; film a longer spin, two "
                             "turns or more",
-                            calibration.samples, limits.least_samples));
+                            counted(calibration.samples, "usable sample"), limits.least_samples));
   faults.add_if(!(calibration.turned_rad >= limits.least_turn_rad), kCode,
                 fmt::format("it turned by {:.0f} degrees, at least {:.0f} are needed; film two "
                             "turns or more",

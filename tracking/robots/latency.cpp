@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "base/plain_text.h"
 #include "sim/control/treads.h"
 #include "tracking/robots/intervals.h"
 
@@ -360,8 +361,8 @@ Latency latency_of(std::span<const TimedCommand> commands, std::span<const Sampl
       intervals_of(seen, commands.back().time_s + kPeriod_s + kLeast_s);
   if (intervals.size() < kLeastIntervals) {
     return not_told(fmt::format(
-        "the camera saw it in {} pairs of frames while its log has commands, and {} are needed",
-        intervals.size(), kLeastIntervals));
+        "the camera saw it in {} of frames while its log has commands, and {} are needed",
+        counted(intervals.size(), "pair"), kLeastIntervals));
   }
   std::vector<double> speeds;
   std::vector<double> spins;

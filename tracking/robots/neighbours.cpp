@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/math.h"
+#include "base/plain_text.h"
 #include "sim/control/reference_model.h"
 #include "tracking/robots/reality.h"
 
@@ -107,12 +108,11 @@ class Count {
                   phantoms_, heard_)};
     }
     if (result.there < kLeastChances || blocks < kLeastBlocks) {
-      return {
-          .reason = fmt::format(
-              "others were within {:.2f} m of it in {} cycles, in {} spans of {:g} s, and {} in "
-              "{} are needed",
-              kNeighbourRange_m - kEdge_m, result.there, blocks, kBlock_s, kLeastChances,
-              kLeastBlocks)};
+      return {.reason = fmt::format(
+                  "others were within {:.2f} m of it in {}, in {} of {:g} s, and {} in {} are "
+                  "needed",
+                  kNeighbourRange_m - kEdge_m, counted(result.there, "cycle"),
+                  counted(blocks, "span"), kBlock_s, kLeastChances, kLeastBlocks)};
     }
     double squares = 0;
     for (const auto& [number, block] : blocks_)

@@ -6,6 +6,7 @@
 
 #include "base/math.h"
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "sim/files/color_text.h"
 #include "sim/mission/polygon.h"
 #include "tracking/rig/issue.h"
@@ -30,8 +31,10 @@ std::optional<std::string> wrong_number(const Mission& mission, const std::vecto
   for (const ShuffledPatches::Share& share : mission.shuffled.shares) {
     const auto count = std::ranges::count(patches, share.color, &Patch::color);
     if (count != share.count) {
-      return fmt::format("the run has {} {} patches, and the mission {}", count,
-                         color_text(share.color), share.count);
+      return fmt::format(
+          "the run has {}, and the mission {}",
+          counted(count, color_text(share.color) + " patch", color_text(share.color) + " patches"),
+          share.count);
     }
   }
   return std::nullopt;

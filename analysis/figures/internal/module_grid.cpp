@@ -10,6 +10,7 @@
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
 #include "analysis/figures/internal/panel_grid.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -79,7 +80,8 @@ class GridDrawing {
     const double bottom = top + height() * static_cast<double>(places_.rows());
     Svg svg(chart_.width_mm,
             bottom + kLineHeight * static_cast<double>(explanation.size()) + kMargin, chart_.title,
-            fmt::format("Grids of {} modules by method, one a mission", chart_.modules.size()));
+            fmt::format("Grids of {} by method, one a mission",
+                        counted(chart_.modules.size(), "module")));
     draw_heading(svg, chart_.title, chart_.details);
     for (std::size_t i = 0; i < grids_.size(); ++i)
       draw_grid(svg, grids_[i], places_.left_of(i),

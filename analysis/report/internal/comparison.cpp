@@ -10,6 +10,7 @@
 #include "analysis/records/names.h"
 #include "analysis/report/internal/sections.h"
 #include "analysis/statistics/effect_size.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -62,9 +63,9 @@ HtmlTable ranks_table(const ComparedRanks& ranks) {
   const FriedmanTest& test = ranks.test;
   HtmlTable table{
       .caption = fmt::format(
-          "Mean ranks{} over {} blocks of {}, 1 is best. Friedman's chi-squared {}, degrees of "
+          "Mean ranks{} over {} of {}, 1 is best. Friedman's chi-squared {}, degrees of "
           "freedom {}, p {}. {}",
-          ranks.source.empty() ? "" : " in " + ranks.source, test.blocks,
+          ranks.source.empty() ? "" : " in " + ranks.source, counted(test.blocks, "block"),
           as_words(fmt::format("{}", fmt::join(ranks.missions, ", "))),
           shown_number(test.statistic), test.degrees, shown_p(test.p_value), test.reading()),
       .columns = {{"name"}, {"mean rank", true}, {"95 % interval", true}}};

@@ -8,6 +8,7 @@
 #include "analysis/comparison/paper_text.h"
 #include "analysis/records/names.h"
 #include "analysis/report/internal/sections.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -37,8 +38,9 @@ void write_sentences(HtmlPage& page, const std::vector<DesignScore>& scores) {
     latex.push_back(sentence.latex);
   }
   if (sentences.size() > kMostSentences) {
-    page.paragraph(fmt::format("{} more comparisons are below, and all of them in LaTeX here:",
-                               sentences.size() - kMostSentences));
+    page.paragraph(
+        counted(sentences.size() - kMostSentences, "more comparison is", "more comparisons are") +
+        " below, and all of them in LaTeX here:");
   }
   page.begin_folded("The same for LaTeX", false);
   page.verbatim("", fmt::format("{}", fmt::join(latex, "\n")));

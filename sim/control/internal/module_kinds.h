@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "sim/control/module.h"
 #include "sim/control/modules.h"
 
@@ -75,8 +76,8 @@ std::optional<Modules> made_of(Module wanted, std::span<const double> values) {
     };
     Kind::parameters(kind, set);
     if (count != values.size()) {
-      throw std::invalid_argument(std::string(Kind::kId) + " takes " + std::to_string(count) +
-                                  " parameters, not " + std::to_string(values.size()));
+      throw std::invalid_argument(std::string(Kind::kId) + " takes " + counted(count, "parameter") +
+                                  ", not " + std::to_string(values.size()));
     }
     made = kind;
   });

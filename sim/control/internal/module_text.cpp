@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/plain_text.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -104,7 +106,7 @@ std::optional<std::string> complaint_about_module(Module module, const std::vect
     return "the flavour " + flavour.name + " has no module " + std::string(id_of(module));
   }
   if (values.size() != spec->parameters.size()) {
-    return spec->id + " takes " + std::to_string(spec->parameters.size()) + " parameters, not " +
+    return spec->id + " takes " + counted(spec->parameters.size(), "parameter") + ", not " +
            std::to_string(values.size());
   }
   for (std::size_t i = 0; i < values.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/base64.h"
+#include "base/plain_text.h"
 #include "base/text/whole_file.h"
 #include "sim/files/internal/read_color.h"
 #include "sim/files/read_place.h"
@@ -81,9 +82,8 @@ ShuffledPatches read_shuffled(TableReader& table) {
     table.complain("colors", table.name() + " needs `colors`, such as { red = 4 }");
   }
   if (patches > shuffled.places.size()) {
-    table.complain("colors", "`colors` asks for " + std::to_string(patches) +
-                                 " patches, but `places` has " +
-                                 std::to_string(shuffled.places.size()));
+    table.complain("colors", "`colors` asks for " + counted(patches, "patch", "patches") +
+                                 ", but `places` has " + std::to_string(shuffled.places.size()));
   }
   table.finish();
   return shuffled;

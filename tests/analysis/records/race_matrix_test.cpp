@@ -50,19 +50,19 @@ TEST_F(RaceMatrixTest, RowsAreElitesByRankThenByHowFarTheyCameThenByMeanRank) {
     EXPECT_EQ(race.rows[i].elite_after, static_cast<std::int64_t>(i) + 1);
     EXPECT_FALSE(race.rows[i].dropped_after);
   }
-  bool anybody_dropped = false;
+  bool any_dropped = false;
   for (std::size_t i = 4; i < race.rows.size(); ++i) {
     const RaceMatrix::Row& before = race.rows[i - 1];
     const RaceMatrix::Row& row = race.rows[i];
     ASSERT_TRUE(row.dropped_after && before.dropped_after);
-    anybody_dropped = anybody_dropped || !row.came_to_the_end();
+    any_dropped = any_dropped || !row.came_to_the_end();
     EXPECT_GE(before.came_to_the_end(), row.came_to_the_end());
     EXPECT_GE(*before.dropped_after, *row.dropped_after);
     if (before.dropped_after == row.dropped_after && before.reason == row.reason) {
       EXPECT_LE(before.mean_rank, row.mean_rank);
     }
   }
-  EXPECT_TRUE(anybody_dropped);
+  EXPECT_TRUE(any_dropped);
 }
 
 TEST_F(RaceMatrixTest, WhatTheLastTestDropsComesAfterThoseThatWereOnlyNotKept) {

@@ -31,7 +31,7 @@ TEST(Html, ShowsNumbersAsPeopleReadThem) {
   EXPECT_EQ(shown_number(1.5e9), "1.5e+09");
 }
 
-TEST(Html, APageIsWellFormedAndAsksNobody) {
+TEST(Html, APageIsWellFormedAndAsksNoServer) {
   HtmlPage page;
   page.heading(2, "A < B");
   page.paragraph("5 > 4 & \"so on\"");

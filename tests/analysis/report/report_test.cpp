@@ -53,7 +53,7 @@ TEST_F(ReportTest, IsWellFormedWithEveryNameEscaped) {
   EXPECT_THAT(text, HasSubstr("swarmsmith &lt;test&gt;"));
 }
 
-TEST_F(ReportTest, AsksNobodyForAnything) {
+TEST_F(ReportTest, AsksNoServer) {
   const std::string text = report();
   const std::regex attribute(R"re(\s(src|srcset|href|action|poster|data|background)="([^"]*)")re");
   for (std::sregex_iterator it(text.begin(), text.end(), attribute), end; it != end; ++it) {

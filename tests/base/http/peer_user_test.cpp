@@ -58,7 +58,7 @@ TEST_P(PeerUserTest, IsTheUserWhoMadeTheConnection) {
 }
 
 /// Of a socket that no process holds the kernel says that it is root's.
-TEST_P(PeerUserTest, IsNobodyWhenTheOtherEndWasClosed) {
+TEST_P(PeerUserTest, IsUnknownWhenTheOtherEndWasClosed) {
   ASSERT_NO_FATAL_FAILURE(connect_ends());
   if (IsSkipped()) return;
   close_theirs();
@@ -67,7 +67,7 @@ TEST_P(PeerUserTest, IsNobodyWhenTheOtherEndWasClosed) {
 
 INSTANTIATE_TEST_SUITE_P(OfLoopback, PeerUserTest, testing::Values("127.0.0.1", "::1"));
 
-TEST(PeerUser, IsNobodyWithoutAConnection) {
+TEST(PeerUser, IsUnknownWithoutAConnection) {
   const int alone = socket(AF_INET, SOCK_STREAM, 0);
   EXPECT_EQ(user_of_peer(alone), std::nullopt);
   EXPECT_EQ(user_of_peer(-1), std::nullopt);

@@ -109,7 +109,7 @@ TEST_F(Programs, AreKilledWhenTheyIgnoreTheirEnd) {
   EXPECT_EQ(end.signal, SIGKILL);
 }
 
-TEST_F(Programs, LeaveNobodyBehind) {
+TEST_F(Programs, LeaveNoProcessBehind) {
   // Ended by itself, with a grandchild that holds the pipes open.
   const ProcessEnd end = run(hostile({"--grandchild", "", "--print", "5"}));
   EXPECT_EQ(end.output.text, "5\n");
@@ -121,7 +121,7 @@ TEST_F(Programs, LeaveNobodyBehind) {
   EXPECT_TRUE(eventually([&] { return is_dead(std::stoi(killed.errors.text)); }));
 }
 
-TEST_F(Programs, WaitForWhoeverStillWrites) {
+TEST_F(Programs, WaitForProcessesThatStillWrite) {
   const ProcessEnd end =
       run({.words = {"/bin/sh", "-c", "(printf late) & exit 0"}, .pipe_grace = seconds(20)});
   EXPECT_EQ(end.output.text, "late");

@@ -383,7 +383,7 @@ TEST_F(DashboardTest, AnotherUserOfThisHostSeesNothing) {
   EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
-TEST_F(DashboardTest, ManySilentConnectionsKeepNobodyWaiting) {
+TEST_F(DashboardTest, ManySilentConnectionsKeepNoOtherWaiting) {
   serve();
   std::vector<HttpPeer> silent;
   for (int i = 0; i < 200; ++i)

@@ -47,14 +47,14 @@ TEST_F(RaceAnswersTest, ARaceHasAllCellsOfItsView) {
 TEST_F(RaceAnswersTest, WhoWasDroppedHasNoFurtherScores) {
   const json race = Asking(store_).json("c1/designs/d1/race", {{"iteration", "1"}});
   std::size_t before = race["candidates"].size();
-  bool anybody_dropped = false;
+  bool any_dropped = false;
   for (std::size_t s = 0; s < race["steps"].size(); ++s) {
     EXPECT_LE(race["scores"][s].size(), before);
     before = race["scores"][s].size();
     std::size_t left = 0;
     for (std::size_t i = 0; i < race["candidates"].size(); ++i) {
       const json& dropped = race["dropped_at"][i];
-      anybody_dropped = anybody_dropped || !dropped.is_null();
+      any_dropped = any_dropped || !dropped.is_null();
       if (dropped.is_null() || dropped.get<int>() > race["steps"][s].get<int>()) ++left;
       EXPECT_EQ(dropped.is_null(), race["reasons"][i].is_null());
     }
@@ -63,7 +63,7 @@ TEST_F(RaceAnswersTest, WhoWasDroppedHasNoFurtherScores) {
       EXPECT_EQ(left, race["alive"][s].get<std::size_t>());
     }
   }
-  EXPECT_TRUE(anybody_dropped);
+  EXPECT_TRUE(any_dropped);
 }
 
 TEST_F(RaceAnswersTest, PairsElitesAndStepsAreThoseOfTheViews) {

@@ -266,6 +266,8 @@ TEST(TargetDesign, TheRaceAfterTheLastIsMarkedAndResumable) {
   ASSERT_FALSE(iterations.empty());
   EXPECT_TRUE(iterations.back().postselection);
   EXPECT_FALSE(iterations.front().postselection);
+  EXPECT_EQ(iterations.front().model_digest, 0U);
+  EXPECT_NE(iterations.back().model_digest, 0U);
   expect_resumable(campaign);
 }
 

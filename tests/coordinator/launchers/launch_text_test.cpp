@@ -2,6 +2,7 @@
 
 #include "base/process/process.h"
 #include "coordinator/launchers/host_file.h"
+#include "coordinator/launchers/launcher.h"
 #include "coordinator/launchers/slurm_script.h"
 #include "coordinator/launchers/slurm_workers.h"
 #include "coordinator/launchers/ssh_workers.h"
@@ -12,6 +13,13 @@ namespace swarmsmith {
 namespace {
 
 using Kind = LaunchOptions::Kind;
+
+TEST(LauncherStatus, CountsOneWorkerAsOne) {
+  EXPECT_EQ(to_text(LauncherStatus{.name = "ssh", .wanted = 1, .pending = 1}),
+            "ssh: 0 of 1 worker runs, 1 waits");
+  EXPECT_EQ(to_text(LauncherStatus{.name = "ssh", .wanted = 4, .running = 2, .pending = 2}),
+            "ssh: 2 of 4 workers run, 2 wait");
+}
 
 TEST(WorkersOption, NamesALauncher) {
   const LaunchOptions file{.kind = Kind::Slurm, .slurm = {.jobs = 9, .cpus_per_task = 8}};
@@ -76,7 +84,7 @@ TEST(HostFile, OfTheExamplesIsRight) {
 }
 
 TEST(HostFile, WithoutHostsIsAMistake) {
-  EXPECT_THAT(parse_hosts("# nobody\n", "h").error().front().message, HasSubstr("no host"));
+  EXPECT_THAT(parse_hosts("# none\n", "h").error().front().message, HasSubstr("no host"));
   EXPECT_EQ(read_hosts("/nonexistent/h").error().front().where, "/nonexistent/h");
   EXPECT_FALSE(read_hosts("/"));
 }

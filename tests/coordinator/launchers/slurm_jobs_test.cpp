@@ -171,7 +171,7 @@ TEST_F(SlurmQueue, ARequeuedJobIsNotSubmittedTwice) {
   EXPECT_EQ(run_for(minutes(5)), 0);
 }
 
-TEST_F(SlurmQueue, ThatNobodyShowsIsAskedAgainAndNothingIsSubmittedBlindly) {
+TEST_F(SlurmQueue, ThatIsNotShownIsAskedAgainAndNothingIsSubmittedBlindly) {
   for (int i = 0; i < 600; ++i) {
     const SlurmJobs::Action action = jobs.next(now);
     ASSERT_FALSE(std::holds_alternative<SlurmJobs::Submit>(action));

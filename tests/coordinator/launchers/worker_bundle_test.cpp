@@ -196,7 +196,7 @@ TEST_F(Bundles, WhatAKilledInstallationLeftGoesLater) {
   EXPECT_THAT(cached(), testing::UnorderedElementsAre(the_bundle().folder, "new.Cd34"));
 }
 
-TEST_F(Bundles, SomebodyElseMayInstallItMeanwhile) {
+TEST_F(Bundles, AnotherProgramMayInstallItMeanwhile) {
   pack("#!/bin/sh\n");
   const WorkerBundle bundle = the_bundle();
   // While this one's files are checked, the other one's appear.

@@ -35,7 +35,7 @@ TEST_F(Authority, RefusesAResultThatWasNeverLeased) {
   EXPECT_EQ(all<SendAcknowledged>().size(), 1U) << "it need not be sent again";
 }
 
-TEST_F(Authority, RefusesAResultOfSomebodyElsesLease) {
+TEST_F(Authority, RefusesAResultOfAnotherWorkersLease) {
   hello(1), hello(2);
   give(1, 1);
   answer(2, 1, 99);
@@ -234,7 +234,7 @@ TEST_F(Authority, StopsTheCampaignWhenAWorkerThatWasBelievedLies) {
   rule_score(10);
   EXPECT_TRUE(only<StopCampaign>().distrusted);
   const std::string reason = only<StopCampaign>().reason;
-  for (const char* part : {"10.0.0.1", "99", "1 results", "--without-key \"10.0.0.1\""})
+  for (const char* part : {"10.0.0.1", "99", "1 result of", "--without-key \"10.0.0.1\""})
     EXPECT_NE(reason.find(part), std::string::npos) << reason;
   EXPECT_EQ(std::ranges::count(kinds(), "a stored score is wrong"), 1);
 }
@@ -285,7 +285,7 @@ TEST_F(Authority, MakesAgainWhatAProcessThatCrashedHadChosen) {
   EXPECT_TRUE(only<StopCampaign>().distrusted);
 }
 
-TEST_F(Authority, MakesNothingAgainWhereNobodyWantsAudits) {
+TEST_F(Authority, MakesNothingAgainWithoutAudits) {
   audit_every(0);
   enter(1, "10.0.0.1");
   give(1, 1);

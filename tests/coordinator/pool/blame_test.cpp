@@ -147,7 +147,7 @@ TEST_F(Blame, StrangersThatTakeAndKeepGetLittleWhileOthersWork) {
   EXPECT_LE(taken, 100U);
 }
 
-TEST_F(Blame, StrangersGetAllWhereThereIsNobodyElse) {
+TEST_F(Blame, StrangersGetAllWhereThereIsNoOtherWorker) {
   want(1, 4000);
   for (PeerId peer = 10; peer <= 60; ++peer) {
     enter(peer, "10.0.0.1", 1, peer);

@@ -45,7 +45,7 @@ TEST(Cases, ForgetACampaignWhileTheRefereeIsAtWork) {
   EXPECT_EQ(gone[0].said.at(0).worker, 4);
   EXPECT_FALSE(cases.close(key(1)));
   cases.open(task(2), std::nullopt, false);
-  EXPECT_EQ(cases.of_nobody(), 1U);
+  EXPECT_EQ(cases.without_worker(), 1U);
   EXPECT_TRUE(cases.next()) << "the next one may begin";
 }
 

@@ -62,7 +62,7 @@ TEST_F(Queues, ShareTimeAndNotTasks) {
   EXPECT_NEAR(short_ones / long_ones, 25, 1);
 }
 
-TEST_F(Queues, LetNobodySaveUpAShare) {
+TEST_F(Queues, LetNoDesignSaveUpAShare) {
   want(1, 200);
   for (int i = 0; i < 100; ++i)
     lease();

@@ -166,7 +166,7 @@ TEST_F(IdleSlots, DoNotRepeatWhatWasToldBeforeItWasWanted) {
   EXPECT_EQ(scheduler.leases().size(), 0U);
 }
 
-TEST_F(IdleSlots, DropWhatNobodyWantsAnyMore) {
+TEST_F(IdleSlots, DropWhatIsNoLongerWanted) {
   hello(1);
   credit(1, 1);
   look_ahead(1, 3);

@@ -95,7 +95,7 @@ TEST_F(Schedulers, AcknowledgeWhateverComesOfADesignThatIsOver) {
   EXPECT_EQ(scheduler.counters().duplicates, 2U);
 }
 
-TEST_F(Schedulers, IgnoreAResultThatNobodyWants) {
+TEST_F(Schedulers, IgnoreAResultThatIsNotWanted) {
   hello(1);
   answer(1, {.key = key(77),
              .attempt = 1,
@@ -196,7 +196,7 @@ TEST_F(Schedulers, CountNoDeathOfAWorkerThatDidNotBegin) {
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
 }
 
-TEST_F(Schedulers, BlameNobodyForATaskThatNeverGotToTheWorker) {
+TEST_F(Schedulers, BlameNoWorkerForATaskThatNeverGotToIt) {
   want(1, 1);
   const std::vector<PackedKey> undelivered{key(1)};
   for (PeerId peer = 1; peer <= 20; ++peer) {

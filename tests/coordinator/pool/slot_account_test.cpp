@@ -103,7 +103,7 @@ TEST_F(SlotAccounts, WhatIsHeldForAStoreOrByPeopleIsNoBarrier) {
   expect_sum();
 }
 
-TEST_F(SlotAccounts, APausedDesignThatWantsNothingHoldsNobodyUp) {
+TEST_F(SlotAccounts, APausedDesignThatWantsNothingHoldsNoOtherUp) {
   hello(1, 2);
   credit(1, 4);
   scheduler.hold_design(0, 7, true);
@@ -112,7 +112,7 @@ TEST_F(SlotAccounts, APausedDesignThatWantsNothingHoldsNobodyUp) {
   EXPECT_NEAR(idle(IdleCause::Barrier), 2.0, 1e-9);
 }
 
-TEST_F(SlotAccounts, LookAheadThatNobodyTookIsNoReasonToIdle) {
+TEST_F(SlotAccounts, LookAheadThatNoWorkerTookIsNoReasonToIdle) {
   hello(1, 2);
   credit(1, 4);
   scheduler.hold_design(0, 1, true);

@@ -190,7 +190,7 @@ pb::ToCoordinator command(pb::Command::Kind kind, std::int64_t design) {
   pb::ToCoordinator message;
   message.mutable_command()->set_kind(kind);
   message.mutable_command()->set_design(design);
-  message.mutable_command()->set_who("somebody@here");
+  message.mutable_command()->set_who("user@here");
   return message;
 }
 
@@ -198,7 +198,7 @@ TEST_F(Coordinators, ConfirmACommandWhenItIsOnDiskAndNotBefore) {
   say(command(pb::Command::KIND_PAUSE, 1), 5);
   EXPECT_EQ(count(pb::ToWorker::kCommandReply), 0);
   ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(std::get<CommandRow>(rows[0]).who, "somebody@here");
+  EXPECT_EQ(std::get<CommandRow>(rows[0]).who, "user@here");
   commit();
   ASSERT_EQ(count(pb::ToWorker::kCommandReply), 1);
   EXPECT_TRUE(heard.back().command_reply().done());

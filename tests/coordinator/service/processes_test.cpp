@@ -229,7 +229,7 @@ TEST_F(RefereesThatEnd, RejectWhatEndsItByAFault) {
   }
 }
 
-TEST_F(RefereesThatEnd, BlameTheHostForWhatSomebodyElseDid) {
+TEST_F(RefereesThatEnd, BlameTheHostForWhatAnotherProgramDid) {
   for (const char* end : {"kill -KILL $$", "kill -TERM $$", "exit 1"}) {
     const Ruling ruling = ended_by(end);
     EXPECT_EQ(ruling.kind, Ruling::Kind::NoWord) << end << ": " << ruling.reason;

@@ -230,7 +230,7 @@ TEST_F(SecureServices, LetAKeyDoWhatItsRoleAllowsAndNothingElse) {
   EXPECT_EQ(campaign->dump(), cluster::undisturbed_dump(shape));
 }
 
-TEST_F(SecureServices, CutAWorkerOffWhoseKeyIsRevokedAndBlameNobody) {
+TEST_F(SecureServices, CutAWorkerOffWhoseKeyIsRevokedAndBlameNoWorker) {
   std::mutex mutex;
   std::optional<std::vector<ListedClient>> news;
   const auto publish = [&](std::vector<ListedClient> list) {

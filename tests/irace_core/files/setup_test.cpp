@@ -122,7 +122,7 @@ TEST_F(IraceSetupFiles, ParametersOfOtherToolsBecomeIracesAndTheirDefaultsComeFi
               Contains(HasSubstr("not in irace's format")));
 }
 
-TEST_F(IraceSetupFiles, AScenarioThatNobodyNamedIsReadWithAWarning) {
+TEST_F(IraceSetupFiles, AScenarioThatWasNotNamedIsReadWithAWarning) {
   EXPECT_THAT(setup().warnings, ElementsAre(HasSubstr("because it exists")));
   EXPECT_THAT(setup({"--scenario", "scenario.txt"}).warnings, IsEmpty());
 }

@@ -78,6 +78,7 @@ TEST(Evolution, KeepsItsBestFifthAndRunsThemAgain) {
     EXPECT_EQ(starts[i].n_configurations, 100);
     EXPECT_EQ(starts[i].new_pairs, i < 8 ? 10 : 20);
     EXPECT_EQ(starts[i].postselection, i == 8);
+    EXPECT_EQ(starts[i].model_digest == 0, i == 0);
     if (i == 0) continue;
     ASSERT_EQ(ends[i - 1].elites.size(), 20U);
     for (std::size_t k = 0; k < 20; ++k)

@@ -105,7 +105,7 @@ TEST_F(Keys, ThatOthersMayReadAreRefused) {
   EXPECT_EQ(refusal(worker), "");
 }
 
-TEST_F(Keys, OfSomebodyElseAreRefused) {
+TEST_F(Keys, OfAnotherUserAreRefused) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can give files away";
   ASSERT_EQ(chown(worker.c_str(), 12345, static_cast<gid_t>(-1)), 0);
   EXPECT_THAT(refusal(worker), HasSubstr("chown 0 " + worker.string()));
@@ -142,7 +142,7 @@ TEST_F(Keys, OfServerAndClientsAreToldApart) {
 }
 
 TEST_F(Keys, ThatAreMissingAreNamed) {
-  EXPECT_THAT(refusal(folder.client_key("nobody")), HasSubstr("nobody.key"));
+  EXPECT_THAT(refusal(folder.client_key("absent")), HasSubstr("absent.key"));
   EXPECT_THAT(
       complaint_of(add_client({temporary / "other"}, {.name = "a", .role = {}, .expires = {}})),
       HasSubstr("swarmsmith keygen"));

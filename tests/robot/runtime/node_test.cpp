@@ -250,7 +250,7 @@ TEST(RobotNode, StandsStillWhileASensorIsSilentAndGoesOn) {
   EXPECT_GE(robot.rows.back().drawn, drawn);
   EXPECT_EQ(robot.state().verdict, RunVerdict::Degraded);
   EXPECT_THAT(robot.state().reasons,
-              ElementsAre("proximity was silent for up to 0.40 s: 1 cycles were not stepped"));
+              ElementsAre("proximity was silent for up to 0.40 s: 1 cycle was not stepped"));
 }
 
 TEST(RobotNode, EndsTheRunWhenASensorIsSilentForASecond) {
@@ -378,7 +378,7 @@ TEST(RobotNode, StandsStillWithinHalfASecondOfItsOperatorsSilence) {
   robot.cycle();
   EXPECT_GT(robot.speed(), 0);
   EXPECT_THAT(robot.state().reasons,
-              ElementsAre("the operator was silent, for up to 0.40 s, at 1.0 s: 1 cycles were not "
+              ElementsAre("the operator was silent, for up to 0.40 s, at 1.0 s: 1 cycle was not "
                           "stepped"));
 }
 

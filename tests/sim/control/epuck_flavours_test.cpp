@@ -52,7 +52,7 @@ TEST(EPuckFlavours, AttractionIsTheSumOverGapsInCentimetresLessSixTimesTheObstac
   expect_towards(command_of(Repulsion{2.9}, senses, named("maple-epuck")), -0.25, -2.0 / 11, -0.5);
 }
 
-TEST(EPuckFlavours, WithoutAnybodyInSightTheyGoStraightOn) {
+TEST(EPuckFlavours, WithoutARobotInSightTheyGoStraightOn) {
   for (const Flavour* flavour : flavours_for("rm1.2")) {
     for (const Behaviour& behaviour : {Behaviour(Attraction{3}), Behaviour(Repulsion{3}),
                                        Behaviour(Phototaxis{}), Behaviour(AntiPhototaxis{})})

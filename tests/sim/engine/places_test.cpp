@@ -81,7 +81,7 @@ TEST(Places, AnswersAreOfWhereMoversAreNowHoweverFarTheyWent) {
   }
 }
 
-TEST(Places, WhatIsNoNumberIsNowhereAndHarmsNobody) {
+TEST(Places, WhatIsNoNumberIsNowhereAndHarmsNoOther) {
   std::vector<Mover> movers = scattered(40, 3, 1);
   movers[4].body.x = std::numeric_limits<double>::quiet_NaN();
   movers[5].body.y = std::numeric_limits<double>::infinity();

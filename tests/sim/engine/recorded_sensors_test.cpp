@@ -189,7 +189,7 @@ TEST(RecordedSensors, ChangeNothing) {
   }
 }
 
-TEST(RecordedSensors, ThatNobodyAskedForAreNotRead) {
+TEST(RecordedSensors, ThatWereNotAskedForAreNotRead) {
   const Recorded recorded("rvr");
   recorded.run([](const Snapshot& now) {
     for (const RobotRecord& robot : not_empty(now.robots))

@@ -225,7 +225,7 @@ TEST(Solids, SlidingAlongAWallARobotDoesNotCatchOnItsJoints) {
   EXPECT_GT(world.body(0).x, 0);
 }
 
-TEST(Solids, AtFullSpeedNobodyPassesThroughWallsOrObstacles) {
+TEST(Solids, AtFullSpeedNoRobotPassesThroughWallsOrObstacles) {
   Rng rng(7);
   for (const Outline& robot :
        {kRvr.body.outline, Outline{CircleOutline{0.06}}, Outline{BoxOutline{0.3, 0.12}}}) {

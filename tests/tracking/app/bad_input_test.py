@@ -360,7 +360,7 @@ class BadInput(unittest.TestCase):
             self.assertRegex(done.stderr, "E_SIDECAR_MISMATCH|E_TIMESTAMPS")
             self.assertFalse(self.store.exists())
 
-    def test_patches_that_nobody_said(self):
+    def test_patches_that_are_not_given(self):
         log = LAB.film("colors", mission="color_selection")
         text = re.sub(r"\n\[\[patch\]\].*", "", log.read_text(), flags=re.S)
         silent = log.with_name("silent.toml")
@@ -542,7 +542,7 @@ class BadInput(unittest.TestCase):
         again = call(TRACK, "rescore", "r1", "--store", self.store, "--arena", arena)
         self.assertEqual(again.returncode, 0, again.stderr)
 
-    def test_store_that_somebody_else_writes(self):
+    def test_store_that_another_program_writes(self):
         self.score(LAB.film("good"))
         with open(f"{self.store}.lock", "w", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)

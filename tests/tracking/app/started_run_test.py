@@ -1,4 +1,4 @@
-"""A run that was started by a clock is filmed and scored without anybody typing when it began."""
+"""A run that was started by a clock is filmed and scored without a person typing when it began."""
 import json
 import time
 import unittest

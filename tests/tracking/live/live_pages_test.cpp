@@ -73,7 +73,7 @@ TEST(LivePagesTest, ShowsAPageAndTheState) {
   EXPECT_EQ(client.Get("/other")->status, 404);
 }
 
-TEST(LivePagesTest, SendsPicturesWhileSomebodyWatches) {
+TEST(LivePagesTest, SendsPicturesWhileAClientWatches) {
   const auto pages = LivePages::start(0, {}).value();
   EXPECT_FALSE(pages->is_watched());
   const Publishing publishing(*pages);
@@ -122,7 +122,7 @@ TEST(LivePagesTest, RangesMultiplyNoPicture) {
   EXPECT_LT(answer->body.size(), 2 * whole->body.size());
 }
 
-TEST(LivePagesTest, HalfOpenConnectionsKeepNobodyWaiting) {
+TEST(LivePagesTest, HalfOpenConnectionsKeepNoOtherWaiting) {
   const auto pages = LivePages::start(0, {}).value();
   httplib::Client client("127.0.0.1", port_of(*pages));
   std::vector<int> sockets;
@@ -152,7 +152,7 @@ TEST(LivePagesTest, AnotherProgramsPortIsAnError) {
 }
 
 /// Connections that say half a sentence keep no other one waiting.
-TEST(LivePagesTest, HalfOpenConnectionsBlockNobody) {
+TEST(LivePagesTest, HalfOpenConnectionsBlockNoOther) {
   const auto pages = LivePages::start(0, {}).value();
   const Publishing publishing(*pages);
   std::vector<int> sockets;

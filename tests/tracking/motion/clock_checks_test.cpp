@@ -235,6 +235,22 @@ TEST(FilmSpeedTest, OnlyTheRunItselfCounts) {
   EXPECT_EQ(find_issue(run, IssueCode::FilmSpeed), nullptr);
 }
 
+TEST(FilmSpeedTest, OnlyUsedSamplesOfTheFirstCameraDuringTheRunCount) {
+  TrackedRobot robot;
+  for (int i = -300; i < 600; ++i) {
+    const double time_s = 0.1 * i;
+    const bool is_run = i >= 0 && i <= 300;
+    robot.samples.push_back({.time_s = time_s, .pose = {(is_run ? 0.1 : 1) * time_s, 0, 0}});
+    if (!is_run) continue;
+    const Pose jump{5.0 * (i % 2), 5, 0};
+    robot.samples.push_back({.time_s = time_s + 0.03, .camera = 1, .pose = jump});
+    robot.samples.push_back({.time_s = time_s + 0.06, .pose = jump, .use = Sample::Use::Outlier});
+  }
+  Findings findings;
+  check_speeds({robot}, {.driving_speed_m_s = 0.4}, 30, findings);
+  EXPECT_NEAR(findings.checks.at(0).value.value(), 0.25, 1e-9);
+}
+
 TEST(FilmSpeedTest, FasterRobotsMayDriveFaster) {
   const auto twice = [](int robot, double time_s) { return on_circle(robot, 2 * time_s); };
   SeenRun seen = seen_run(twice, kFilm);

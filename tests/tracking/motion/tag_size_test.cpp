@@ -44,7 +44,7 @@ TEST(TagSizeTest, AHeightThatIsThreeCentimetresOffIsDoubtfulAndMakesBordersWide)
   EXPECT_LT(run.robots[0].sigmas.back().sigma_m, 0.004);
 }
 
-TEST(TagSizeTest, WhatNobodyCanMeasureBetterIsNone) {
+TEST(TagSizeTest, WhatCannotBeMeasuredBetterIsNone) {
   SeenRun seen = seen_run(on_circle, usual());
   lower_heights(seen, 0.01);
   seen.rig.robots[0].edge_m *= 1.004;

@@ -291,7 +291,7 @@ TEST(TrackRunTest, RefusesWhenItCannotTellTwinsFromTheStart) {
   EXPECT_THAT(complaint_of(seen.track()), HasSubstr("E_DUPLICATE_ID: rvr1"));
 }
 
-TEST(TrackRunTest, ListsTagsThatNobodyDeclared) {
+TEST(TrackRunTest, ListsTagsThatAreNotDeclared) {
   SeenRun seen = seen_run(on_circle, short_run());
   seen.rig.references.push_back({.tag = 100});
   seen.options.other_tags = {99};

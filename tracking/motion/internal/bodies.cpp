@@ -11,6 +11,7 @@
 
 #include "base/assert.h"
 #include "base/math.h"
+#include "base/plain_text.h"
 #include "sim/mission/footprint.h"
 #include "tracking/motion/resampling.h"
 
@@ -186,7 +187,9 @@ void judge_bodies(const std::vector<RobotTrack>& tracks, const Arena& arena,
            "right one in the mission (`robot`), or measure `height` and offset of the tags",
            worst->who, 1000 * depth_m, worst->where, 1000 * kDeep_m,
            worst->deep_cycles * instant_s(1),
-           others == 0 ? "" : fmt::format(", and so were {} others", others)),
+           others == 0
+               ? ""
+               : (others == 1 ? ", and so was " : ", and so were ") + counted(others, "other")),
        {},
        instant_s(worst->first_cycle),
        instant_s(worst->last_cycle)});

@@ -9,6 +9,7 @@
 #include "base/assert.h"
 #include "base/math.h"
 #include "base/median.h"
+#include "base/plain_text.h"
 #include "tracking/motion/internal/clock_steps.h"
 #include "tracking/motion/resampling.h"
 
@@ -196,13 +197,14 @@ void check_steps(const FilmedCamera& film, Findings& findings) {
                 "the clock of camera {} jumped ahead by {:.2f} s at {:.2f} s of the run: "
                 "pictures before and after are {:.2f} s of driving apart",
                 film.camera.name, -worst.lost_s, worst.at_s, worst.driving_s());
-  findings.add(std::move(check),
-               issue_of(IssueCode::ClockStep,
-                        text + fmt::format(" ({} such places, together up to {:.2f} s off, limit "
-                                           "{:.2f} s); was a clock set, or were frames lost while "
-                                           "they were counted? Give the camera's own times",
-                                           steps.count, steps.most_off_s, kLimit_s),
-                        worst.at_s, worst.at_s));
+  findings.add(
+      std::move(check),
+      issue_of(IssueCode::ClockStep,
+               text + fmt::format(" ({}, together up to {:.2f} s off, limit "
+                                  "{:.2f} s); was a clock set, or were frames lost while "
+                                  "they were counted? Give the camera's own times",
+                                  counted(steps.count, "such place"), steps.most_off_s, kLimit_s),
+               worst.at_s, worst.at_s));
 }
 
 /// The speed that a robot exceeds in a tenth of its samples, and the turning speed that it exceeds

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/output_file.h"
+#include "base/plain_text.h"
 #include "tracking/video/internal/av.h"
 #include "tracking/video/internal/recorded_images.h"
 #include "tracking/video/internal/ros_image.h"
@@ -161,7 +162,8 @@ class Rosbag2Messages final : public MessageReader {
     const int code = sqlite3_step(query_.get());
     if (code == SQLITE_DONE) return std::optional<RecordedMessage>();
     if (code != SQLITE_ROW)
-      return unreadable(complaint(base_.get()) + fmt::format(" (after {} images)", given_), name_);
+      return unreadable(complaint(base_.get()) + " (after " + counted(given_, "image") + ")",
+                        name_);
     ++given_;
     const auto* const data = static_cast<const std::uint8_t*>(sqlite3_column_blob(query_.get(), 1));
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(query_.get(), 1));
