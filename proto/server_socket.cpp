@@ -253,10 +253,6 @@ Expected<std::unique_ptr<ServerSocket>> ServerSocket::bind(const std::string& en
   if (!address) return Unexpected(address.error());
   auto impl = std::make_unique<Impl>();
   apply(options, kMaxFrameBytes, impl->socket);
-  // No limit on waiting messages, since the gate limits their bytes. At a limit libzmq stops
-  // reading from a connection, and if that connection then breaks, the next heartbeat aborts this
-  // process (libzmq's issue 4364).
-  impl->socket.set(zmq::sockopt::rcvhwm, 0);
   // "*" then means every interface of both families.
   const bool both = address->host == "*";
   impl->socket.set(zmq::sockopt::ipv6, both || address->host.find(':') != std::string::npos);

@@ -10,6 +10,10 @@ void apply(const SocketOptions& options, std::size_t most, zmq::socket_t& socket
   socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(most));
   socket.set(zmq::sockopt::handshake_ivl, milliseconds(options.handshake_timeout));
   socket.set(zmq::sockopt::sndhwm, options.send_queue);
+  // No limit on the number of waiting messages: at one, libzmq stops reading from a connection, and
+  // if that connection then breaks, the next heartbeat aborts this process (libzmq's issue 4364). A
+  // server's gate limits their bytes.
+  socket.set(zmq::sockopt::rcvhwm, 0);
   socket.set(zmq::sockopt::heartbeat_ivl, milliseconds(options.heartbeat_interval));
   socket.set(zmq::sockopt::heartbeat_timeout, milliseconds(options.heartbeat_timeout));
 }
