@@ -10,6 +10,7 @@
 #include "sim/control/machine_text.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 #include "tests/support/not_empty.h"
 
@@ -74,10 +75,11 @@ Mission mission_with_solids() {
 
 /// The hash of all poses of all 1200 cycles, final velocities and states, and the score.
 std::string hash_of(Mission mission, const std::string& flavour_name,
-                    const std::string& profile_name) {
+                    const std::string& profile_name, const std::string& machine_text = {}) {
   mission.arena.lights.push_back({.x_m = 0.4, .y_m = -0.8, .z_m = 0.75, .intensity_cd = 900});
   const Flavour& flavour = **find_flavour(flavour_name);
-  const Machine machine = parse_machine(machines().at(flavour_name), flavour).value();
+  const std::string& text = machine_text.empty() ? machines().at(flavour_name) : machine_text;
+  const Machine machine = parse_machine(text, flavour).value();
   const Profile profile = built_in_profile(profile_name).value();
   const Instance instance = instance_of(mission, 17).value();
   Digest digest;
@@ -170,6 +172,14 @@ TEST(Determinism, ObstaclesHaveTheirFixedHash) {
   for (Obstacle& obstacle : mission.arena.obstacles)
     obstacle.height_m = 0.3;  // they hide robots from each other
   EXPECT_EQ(hash_of(mission, "watermelon", "rvr"), "d88faef5d81f192e91a8f9b9a9720175");
+}
+
+/// Contacts of discs begin, end and come again in another order.
+TEST(Determinism, EpucksThatPressIntoEachOtherHaveTheirFixedHash) {
+  const auto file =
+      read_mission_file(SWARMSMITH_SOURCE_DIR "/examples/missions/epuck/mp-agg.toml").value();
+  EXPECT_EQ(hash_of(file.mission, "chocolate-epuck", "epuck", "--nstates 1 --s0 4 --att0 5"),
+            "69d32be182f76412f9e1f386d6cb74d4");
 }
 
 TEST(EngineVersion, IsAnotherWhereTheExactModelMeetsObstacles) {
