@@ -3,6 +3,8 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
+#include <vector>
 
 #include "tests/irace_core/costs.h"
 #include "tests/irace_core/spaces.h"
@@ -163,10 +165,18 @@ TEST(PostselectionRace, CanBeTurnedOff) {
 
 TEST(PostselectionRace, KeepsElitesWhenEverythingElseFails) {
   int rejected_all = 0;
+  int kept_elites = 0;
+  const auto ids_of = [](std::span<const Elite> elites) {
+    std::vector<std::int64_t> ids;
+    for (const Elite& elite : elites)
+      ids.push_back(elite.configuration);
+    return ids;
+  };
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     auto race = IteratedRace::start(small_space(), small_scenario(seed)).value();
     bool last_race = false;
     std::set<std::int64_t> rejected;
+    std::vector<std::vector<std::int64_t>> ended;  // the elites of each iteration
     while (!race.finished()) {
       std::vector<double> costs;
       for (const Experiment& wanted : race.wanted()) {
@@ -183,6 +193,8 @@ TEST(PostselectionRace, KeepsElitesWhenEverythingElseFails) {
             }
           }
         }
+        if (const auto* end = std::get_if<IterationEnded>(&event))
+          ended.push_back(ids_of(end->elites));
         const auto* started = std::get_if<IterationStarted>(&event);
         last_race = last_race || (started != nullptr && started->postselection);
       }
@@ -191,9 +203,18 @@ TEST(PostselectionRace, KeepsElitesWhenEverythingElseFails) {
     ++rejected_all;
     EXPECT_FALSE(race.failure().has_value());
     ASSERT_FALSE(race.elites().empty());
-    for (const Elite& elite : race.elites())
-      EXPECT_FALSE(rejected.contains(elite.configuration));
+    ended.pop_back();
+    for (std::vector<std::int64_t>& elites : ended)
+      std::erase_if(elites, [&](std::int64_t id) { return rejected.contains(id); });
+    while (!ended.empty() && ended.back().empty())
+      ended.pop_back();
+    for (const std::int64_t id : ids_of(race.elites()))
+      EXPECT_FALSE(rejected.contains(id));
+    if (ended.empty()) continue;
+    ++kept_elites;
+    EXPECT_EQ(ids_of(race.elites()), ended.back()) << "the latest elites that are left";
   }
+  EXPECT_GT(kept_elites, 0);
   EXPECT_GT(rejected_all, 3);
 }
 

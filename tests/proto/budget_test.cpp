@@ -191,6 +191,8 @@ TEST_F(Budgets, OfAHostThoseWithMostAreCutOff) {
 
 TEST_F(Budgets, WhatIsTakenIsHeldNoMore) {
   listen({.most_waiting = 2 * kMiB});
+  const RawPeer half(server->endpoint());
+  half.say(part_of(kMiB / 2));  // waits all the time, within the limits
   ClientSocket client(server->endpoint());
   meet(client);
   const std::string frame(kMiB / 2, 'x');

@@ -168,6 +168,10 @@ TEST(SocketAddresses, ThatCannotBeUsedAreNamed) {
   client.connect();
   EXPECT_TRUE(client.lost());
   EXPECT_THAT(client.trouble(), HasSubstr("the name `no-such-host.invalid`"));
+  ClientSocket portless("somewhere");
+  portless.connect();
+  EXPECT_TRUE(portless.lost());
+  EXPECT_THAT(portless.trouble(), HasSubstr("no address to connect to"));
   const Error server = why_not(ServerSocket::bind("tcp://[fe80::1]:*"));
   EXPECT_THAT(server.message, HasSubstr("%eth0"));
 }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "storage/backup.h"
+#include "storage/internal/lock_file.h"
 #include "storage/merge.h"
 #include "storage/recover.h"
 #include "storage/store_at_rest.h"
@@ -74,6 +75,15 @@ TEST_F(LocksTest, AWriterHoldsItsLockAfterEveryKindOfStart) {
   leave_unclean();
   const auto unclean = open_store(path, campaign);
   EXPECT_TRUE(is_locked_here(path)) << "after a crash";
+}
+
+TEST_F(LocksTest, AProgramWithoutStandardInputHasItsLockToo) {
+  const int input = ::dup(STDIN_FILENO);
+  ::close(STDIN_FILENO);
+  const std::string complaint = complaint_of(LockFile::acquire(path, {}));
+  ::dup2(input, STDIN_FILENO);
+  ::close(input);
+  EXPECT_EQ(complaint, "");
 }
 
 TEST_F(LocksTest, NothingThatIsDoneWithAStoreTakesTheLockOfItsWriterAway) {

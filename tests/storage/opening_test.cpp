@@ -38,6 +38,15 @@ TEST_F(OpeningTest, MakesAStoreInAnEmptyFileToo) {
   EXPECT_TRUE(open_reader(path)->finished());
 }
 
+TEST_F(OpeningTest, OnlyItsOwnerCanReadANewStore) {
+  using std::filesystem::perms;
+  const auto store = open_store(path, campaign);
+  for (const char* ending : {"", "-wal", "-shm"})
+    EXPECT_EQ(std::filesystem::status(path.string() + ending).permissions(),
+              perms::owner_read | perms::owner_write)
+        << ending;
+}
+
 TEST_F(OpeningTest, RefusesAFileThatIsNoDatabase) {
   std::ofstream(path) << "candidate,score\n" << std::string(500, '1');
   EXPECT_EQ(refusal().kind, ErrorKind::Corrupt);

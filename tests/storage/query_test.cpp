@@ -37,7 +37,7 @@ TEST_F(QueryTest, FindsIdsAsTheyArePrinted) {
        {"candidate='c3'", "k.candidate = 'c3'", "'c3' = k.candidate", "\"candidate\" == 'c3'",
         "k.[candidate] IS 'c3'", "candidate IN ('c3')", "candidate IN ('c0', 'c3', 'c999999')",
         "candidate BETWEEN 'c3' AND 'c3'", "candidate >= 'c3' AND candidate < 'c4'",
-        "/* 'c9' */ candidate = 'c3' -- 'c8'"})
+        "1 = 1 AND 'c3' = candidate", "/* 'c9' */ candidate = 'c3' -- 'c8'"})
     EXPECT_EQ(count(same), one) << same;
   EXPECT_EQ(count("design = 'd1' AND candidate NOT IN ('c3')"), count("candidate <> 3"));
   EXPECT_EQ(count("candidate IS NOT 'c3'"), count("candidate <> 3"));

@@ -249,6 +249,17 @@ TEST_F(OfOthers, EachCommitSaysWhatRowsThereAre) {
   }
 }
 
+TEST(RowHash, DependsOnEachLetter) {
+  for (std::size_t size = 1; size <= 17; ++size) {
+    const std::string text(size, 'a');
+    for (std::size_t i = 0; i < size; ++i) {
+      std::string other = text;
+      other[i] = 'b';
+      EXPECT_NE(RowHash::of(text), RowHash::of(other)) << size << " " << i;
+    }
+  }
+}
+
 TEST_F(OfOthers, RowsThatOthersChangedAreFoundAndNamed) {
   make_store();
   const fs::path whole = folder / "whole.db";

@@ -55,8 +55,9 @@ class Protocol : public ::testing::Test {
     take();
   }
 
-  void be_welcome() {
+  void be_welcome(std::int64_t dead_after_ms = 0) {
     pb::ToWorker welcome;
+    welcome.mutable_welcome()->set_dead_after_ms(dead_after_ms);
     welcome.mutable_welcome()->set_scenario(digest_of_scenario("scenario"));
     welcome.mutable_welcome()->set_max_credit(4096);
     hear(welcome);
@@ -287,6 +288,15 @@ TEST_F(Protocol, NoticesASilentCoordinator) {
   for (int i = 0; i < 3; ++i)
     pass(seconds(1));
   EXPECT_GE(connections, 2);
+}
+
+TEST_F(Protocol, WaitsForASilentCoordinatorAsLongAsItWasTold) {
+  be_welcome(20'000);
+  for (int i = 0; i < 20; ++i)
+    pass(seconds(1));
+  EXPECT_TRUE(protocol.active());
+  pass(seconds(1));
+  EXPECT_FALSE(protocol.active());
 }
 
 /// Of a connection that it has closed, or of a coordinator that it has left, nothing counts.

@@ -23,15 +23,16 @@ TEST_F(ComparisonStoreTest, SummarisesTheWinnersTests) {
   EXPECT_NEAR(comparison.groups.front().summary.mean, std::stod(mean.front().front()), 1e-9);
 }
 
-/// Two methods of one design with a budget of 1,000, which used so much.
+/// Two methods of one design with a budget of 1,000, which used so much. The second one has another
+/// design, which is not finished.
 Expected<Comparison> compared_budgets(const std::filesystem::path& file, std::int64_t all,
                                       std::int64_t other, CompareBy by) {
-  SyntheticCampaign made = synthetic_campaign({.designs = 2, .tests = 4});
-  made.designs[0].method = "all";
-  made.designs[1].method = "other";
-  made.designs[0].mission = made.designs[1].mission = "m";
-  for (DesignRow& design : made.designs)
+  SyntheticCampaign made = synthetic_campaign({.designs = 3, .tests = 4});
+  for (DesignRow& design : made.designs) {
+    design.mission = "m";
+    design.method = design.id == made.designs[0].id ? "all" : "other";
     design.budget = 1000;
+  }
   {
     auto store = open_store(file, made);
     for (const auto& batch : made.batches)
@@ -43,10 +44,14 @@ Expected<Comparison> compared_budgets(const std::filesystem::path& file, std::in
         if (state == nullptr || state->state != DesignState::Finished) continue;
         DesignStateRow end = *state;
         end.used = end.design == made.designs[0].id ? all : other;
+        if (end.design == made.designs[2].id) {
+          end.state = DesignState::Racing;
+          end.used = 10;
+        }
         ends.emplace_back(end);
       }
     }
-    EXPECT_EQ(ends.size(), 2U);
+    EXPECT_EQ(ends.size(), 3U);
     store->append(std::move(ends));
   }
   const auto two = open_reader(file);

@@ -65,10 +65,19 @@ TEST(ComparisonText, HasGroupsPairsRanksAndHow) {
   EXPECT_THAT(text, HasSubstr("seed 1"));
 }
 
-TEST(ComparisonText, ByMissionHasNoTest) {
-  const std::string text = comparison_text(compare(scores(), {.by = CompareBy::Mission}));
+TEST(ComparisonText, ByMissionHasATableAndNotesAndNoTest) {
+  std::vector<Scored> designs = {{.design = 20, .method = "b", .scores = {2}}};
+  for (int i = 1; i <= 10; ++i)
+    designs.push_back({.design = i, .method = "a", .repetition = i, .scores = {1}});
+  const std::string text =
+      comparison_text(compare(records_of(designs), {.by = CompareBy::Mission}));
   EXPECT_THAT(text, Not(HasSubstr("Wilcoxon")));
-  EXPECT_THAT(text, HasSubstr("different units"));
+  EXPECT_THAT(text, HasSubstr("source   n  designs  runs  mean  sd  min  q1  median  q3  max\n"
+                              "aggregation  a       rvr     10       10    10     1   0    1   1"
+                              "       1   1    1\n"
+                              "aggregation  b       rvr      1        1     1     2   -    2   2"
+                              "       2   2    2\n\n"
+                              "scores of different missions have different units"));
 }
 
 }  // namespace

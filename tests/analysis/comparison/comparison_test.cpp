@@ -46,6 +46,8 @@ TEST(Comparison, PairsTheSameDesignsBySource) {
   EXPECT_DOUBLE_EQ(*pair.test.p_value, 2.0 / 64);
   EXPECT_DOUBLE_EQ(pair.difference.value, 1.5 + 0.25 * 3.5);
   EXPECT_THAT(pair.notes, ElementsAre(HasSubstr("n is small")));
+  EXPECT_THAT(comparison.notes, Not(Contains(HasSubstr(" in common"))))
+      << "designs of different missions are not paired";
 }
 
 TEST(Comparison, AValueIsADesignsMeanOrARun) {

@@ -300,6 +300,22 @@ TEST(CampaignRunner, ADesignWithoutCandidatesStopsAndTheOthersGoOn) {
   EXPECT_NE(states[DesignId{2}].reason, "");
 }
 
+TEST(CampaignRunner, WantsNoMorePairsThanAStoreCanNumber) {
+  for (const std::int64_t tests : {kPairsPerCandidate - 1, kPairsPerCandidate}) {
+    Campaign campaign = one_design_campaign();
+    campaign.race.max_experiments = 1500;
+    campaign.missions.front().test_count = tests;
+    CampaignRunner runner(*plans_of(campaign), {}, {});
+    Memory memory;
+    run(runner, memory, Rng(1), 1500);
+    EXPECT_EQ(runner.error() ? runner.error()->message : "",
+              tests < kPairsPerCandidate
+                  ? ""
+                  : "the design needs more than 99999 pairs, the most that it can have: give a "
+                    "smaller budget");
+  }
+}
+
 TEST(CampaignRunner, AsksOnceForWhatItWantsAgainAfterARejectionMadeItUnused) {
   int wanted_again = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {

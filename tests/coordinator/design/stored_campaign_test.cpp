@@ -1,6 +1,7 @@
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/design/plans.h"
+#include "coordinator/design/rebuild.h"
 #include "coordinator/design/verify.h"
 #include "storage/internal/sqlite.h"
 #include "storage/store.h"
@@ -87,6 +88,42 @@ TEST_F(StoredCampaign, LookingAheadLeavesTheDigest) {
       [&](const auto& cells) { unused = std::stoll(cells.front().text); });
   ASSERT_TRUE(counted);
   EXPECT_THAT(unused, Gt(0)) << "something was computed in vain";
+}
+
+TEST_F(StoredCampaign, IsRebuiltFromItsScores) {
+  go_on("s", 1, 0);
+  const auto store =
+      value_of(Store::open(folder_ / "s", campaign_row(campaign_), design_rows(campaign_)));
+  std::vector<StoredScore> scores = store->scores();
+  std::vector<StoredStep> steps = store->steps();
+  const Rebuilt whole = rebuild(*plans_of(campaign_), scores, steps, {});
+  EXPECT_THAT(whole.complaints, IsEmpty());
+  ASSERT_EQ(whole.designs.size(), 2U);
+  for (const Rebuilt::Design& design : whole.designs) {
+    EXPECT_EQ(design.state, DesignState::Finished);
+    EXPECT_GT(design.used, 1000);
+    EXPECT_EQ(design.ahead, 0);
+    EXPECT_EQ(design.unasked, 0);
+    EXPECT_EQ(design.missing, 0U);
+  }
+  steps.front().digest += 1;
+  EXPECT_THAT(rebuild(*plans_of(campaign_), scores, steps, {}).complaints,
+              ElementsAre(HasSubstr("the scores give another step 1 than the stored one")));
+  std::erase_if(scores, [](const StoredScore& score) {
+    return score.key.candidate.value == 1 && score.key.pair == 1;
+  });
+  const Rebuilt lost = rebuild(*plans_of(campaign_), scores, {}, {});
+  EXPECT_EQ(lost.designs[0].state, DesignState::Racing);
+  EXPECT_GT(lost.designs[0].ahead, 0);
+  EXPECT_EQ(lost.designs[0].missing, 1U);
+}
+
+TEST_F(StoredCampaign, WithoutAFileThatCanBeReadIsAnError) {
+  go_on("s", 1, 0, 100);
+  sqlite::Connection(folder_ / "s", SQLITE_OPEN_READWRITE)
+      .execute("UPDATE campaign SET file = 'format = 0'");
+  EXPECT_THAT(complaint_of(verify(*value_of(StoreReader::open(folder_ / "s")))),
+              HasSubstr("the store's campaign file"));
 }
 
 TEST_F(StoredCampaign, CommandsAreReplayedAndVerified) {

@@ -34,6 +34,11 @@ TEST(TargetCalls, NumberTasksOfRaceAndTestsThroughEachOther) {
   EXPECT_EQ(calls.pair_in_tests(1), 14);
   calls.go_on();
   EXPECT_EQ(calls.pair_in_race(4), 24);
+  // Tests follow tests when the race wants nothing in between.
+  calls.begin_tests(10);
+  calls.go_on();
+  calls.begin_tests(10);
+  EXPECT_EQ(calls.pair_in_tests(1), 35);
 }
 
 }  // namespace

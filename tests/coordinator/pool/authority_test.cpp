@@ -184,6 +184,22 @@ TEST_F(Authority, HoldsBackWhatANewcomerSaysUntilTheRefereeAgrees) {
   EXPECT_EQ(all<OutcomeAccepted>()[3].outcome.worker, 1);
 }
 
+TEST_F(Authority, TriesAResultThatCameTwiceOnce) {
+  enter(1, "10.0.0.1", 4);
+  give(1, 1, 4);
+  const std::uint64_t signature = scheduler.signer().sign(task_of(1), 1, "10.0.0.1");
+  for (int times = 0; times < 2; ++times)
+    answer(1, {.key = key(1),
+               .attempt = 1,
+               .measured = {.score = 1, .state_digest = 5, .wall_us = 100},
+               .signature = signature});
+  for (std::int64_t i = 2; i <= 4; ++i)
+    answer(1, i);
+  rule_score(1);
+  EXPECT_EQ(all<OutcomeAccepted>().size(), 1U) << "one evaluation does not prove the worker";
+  EXPECT_EQ(asked(), key(2));
+}
+
 TEST_F(Authority, TriesNoResultThatAnotherWorkerGaveMeanwhile) {
   hello(2);
   enter(1, "10.0.0.1", 4);
@@ -292,6 +308,8 @@ TEST_F(Authority, MakesNothingAgainWithoutAudits) {
   answer(1, 1, 3);
   EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
   EXPECT_FALSE(asked());
+  const std::vector<StoredScore> known{{.key = unpack(key(1)), .worker = 1}};
+  EXPECT_TRUE(scheduler.know(0, known, {.principals = {{1, "10.0.0.1"}}, .audited = {}}).empty());
 }
 
 TEST_F(Authority, MakesTheFirstResultsAgainMoreOften) {

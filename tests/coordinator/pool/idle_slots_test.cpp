@@ -59,6 +59,25 @@ TEST_F(IdleSlots, WaitForAFewTimesTheEstimate) {
   EXPECT_EQ(scheduler.counters().copies, 1U);
 }
 
+TEST_F(IdleSlots, GetNoCopyOfWhatTheirOwnWorkerHas) {
+  hello(1, 2);
+  credit(1, 2);
+  want(1, 1);
+  pass(seconds(1));
+  EXPECT_EQ(scheduler.counters().copies, 0U);
+}
+
+TEST_F(IdleSlots, AreNotThoseOfABusyWorker) {
+  hello(1);
+  hello(2);
+  credit(1, 2);
+  credit(2, 2);
+  want(1, 2);
+  EXPECT_EQ(scheduler.idle_slots(), 0U);
+  pass(seconds(1));
+  EXPECT_EQ(scheduler.counters().copies, 0U);
+}
+
 TEST_F(IdleSlots, TakeWhicheverCopyComesFirst) {
   make_straggler();
   answer(2, 1, 2.5, "", 2);

@@ -95,6 +95,8 @@ TEST_F(Leases, KeepWhatRunsAloneApart) {
   record(1).alone = true;
   table.requeue(record(1), 7);
   EXPECT_TRUE(table.has_alone());
+  EXPECT_EQ(table.wanted_of({0, 0}), 1U);
+  EXPECT_EQ(table.wanted_of({0, 2}), 0U);
   EXPECT_EQ(lease(7), 0);
   table.grant(*table.next_alone(), 8, {});
   EXPECT_FALSE(table.has_alone());

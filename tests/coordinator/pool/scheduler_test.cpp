@@ -228,6 +228,7 @@ TEST_F(Schedulers, BringAFailureBeforeTheReferee) {
   credit(1, 10);
   want(1, 1);
   answer(1, 1, 0, "not a number");
+  EXPECT_EQ(scheduler.counters().failed, 1U);
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
   ASSERT_EQ(asked(), key(1));
   answer(1, 1, 0, "not a number");  // said twice
@@ -340,6 +341,26 @@ TEST_F(Schedulers, AreFullAtTheLimit) {
   hello(1);
   hello(2);
   EXPECT_EQ(only<SendReject>().reason, RejectReason::Limit);
+}
+
+TEST_F(Schedulers, AreFullForOneAddressAtItsLimit) {
+  options.max_workers_of_one = 1;
+  scheduler = Scheduler(options);
+  enter(1, "10.0.0.1");
+  enter(2, "10.0.0.2");
+  enter(1, "10.0.0.1", 1, 2);
+  EXPECT_TRUE(all<SendReject>().empty()) << "a known worker may come again";
+  enter(3, "10.0.0.1");
+  EXPECT_EQ(only<SendReject>().reason, RejectReason::Limit);
+}
+
+TEST_F(Schedulers, ForgetAWorkerThatLeftLongAgo) {
+  hello(1);
+  lose(1);
+  pass(WorkerRegistry::kMemory);
+  EXPECT_EQ(scheduler.workers().all().size(), 1U);
+  pass(std::chrono::minutes(2));
+  EXPECT_TRUE(scheduler.workers().all().empty());
 }
 
 }  // namespace

@@ -53,6 +53,9 @@ TEST_F(SlotAccounts, WhatIsLeasedAndNotEvaluatedIsTheNetworks) {
   EXPECT_NEAR(account.since_start().busy, 1.5, 1e-9);
   EXPECT_EQ(idle(IdleCause::Barrier), 0);
   expect_sum();
+  second(1, 4000, 3500);  // it did not idle at all
+  EXPECT_NEAR(idle(IdleCause::Network), 0.5, 1e-9);
+  expect_sum();
 }
 
 TEST_F(SlotAccounts, AWorkerThatAsksForLessThanItsSlotsHasNoCredit) {

@@ -84,6 +84,22 @@ TEST(Stage, AnnealingTellsItsTemperature) {
       stage_text(options,
                  {.iteration = 3, .iterations = 5, .step = 150, .used = 2200, .budget = kBudget}),
       "iteration 141, temperature 0.001");
+  // A continued campaign does not know its step yet.
+  const SearchPoint continued{.iteration = 2, .iterations = 5, .used = 210, .budget = kBudget};
+  EXPECT_EQ(stage_text(options, continued), "an iteration of iterations from 1 on, temperature 1");
+  EXPECT_EQ(round_line(options, continued), "iterations from 1 on");
+}
+
+TEST(Stage, AnnealingBeginsWithTheScaleOfTheScores) {
+  const SearchOptions options = options_of(SearchKind::Annealing);
+  const SearchPoint point{.iteration = 1,
+                          .iterations = 5,
+                          .configurations = 10,
+                          .runs_wanted = 200,
+                          .runs = 120,
+                          .budget = kBudget};
+  EXPECT_EQ(stage_text(options, point), "scale of the scores: 6 of 10 configurations");
+  EXPECT_EQ(round_line(options, point), "scale of the scores: 10 configurations, 20 runs each");
 }
 
 TEST(Stage, ThePublishedTemperatureIsHalvedEveryThirdIterationAndBeginsAgain) {

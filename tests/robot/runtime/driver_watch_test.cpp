@@ -325,6 +325,22 @@ TEST(DriverWatch, ADriverThatDoesNotDoWhatIsCommandedForAMomentIsFound) {
   }
 }
 
+TEST(DriverWatch, ADriverThatStandsForAMomentEndsNoRunThoughNoStopWasCommanded) {
+  const Played played =
+      play([](int) { return kStraight; }, [](int k) { return k < 306 ? Command{} : kStraight; });
+  EXPECT_FALSE(played.trouble) << played.trouble->what;
+  EXPECT_LT(played.held, 306);
+}
+
+TEST(DriverWatch, ACommandOfMoreThanTenSecondsAgoIsNoOther) {
+  // The last turn ended 10 s before the fault.
+  const Played played =
+      play([](int k) { return k < 200 ? kTurns : kStraight; }, [](int) { return kTurns; });
+  ASSERT_TRUE(played.trouble);
+  EXPECT_THAT(played.trouble->what, HasSubstr("obeys"));
+  EXPECT_LT(played.cycle, 306);
+}
+
 TEST(DriverWatch, ADriverThatLooksFiveTimesASecondIsNoSlowOne) {
   // Each cycle another speed, as robots command that follow others.
   const auto wanted = [](int k) { return Command{0.3, 0.3 - 0.001 * (k * 7919 % 500), {}}; };

@@ -191,6 +191,15 @@ TEST(RobotNode, StepsTheFlavourAsItRunsOnItsRobot) {
   EXPECT_TRUE(value_of(replay_log(of_rvr)).difference);
 }
 
+TEST(RobotNode, TellsMachinesOfTwoFlavoursOfOneNameApart) {
+  Flavour mine = watermelon();
+  mine.name = "mine";
+  Flavour other = mine;
+  other.neighbours.attraction_gain += 1;
+  EXPECT_NE(BenchRobot({}, kCuriousMachine, mine).state().machine_digest,
+            BenchRobot({}, kCuriousMachine, other).state().machine_digest);
+}
+
 TEST(RobotNode, StopsByOrderOfItsRunAndOfNoOther) {
   BenchRobot robot;
   robot.start();
@@ -224,6 +233,10 @@ TEST(RobotNode, AKillIsForGood) {
   robot.run = "run08";
   robot.node.hear(robot.order(Order::Kind::Start), robot.now());
   EXPECT_THAT(robot.state().refused, HasSubstr("killed by order: restart the node"));
+  robot.wall_ahead_s = 5;  // after the run
+  robot.cycle();
+  robot.node.hear(robot.order(Order::Kind::Kill), robot.now());
+  EXPECT_THAT(robot.state().reasons, Not(Contains(HasSubstr("clock"))));
 }
 
 TEST(RobotNode, StandsStillWhileASensorIsSilentAndGoesOn) {
@@ -241,6 +254,7 @@ TEST(RobotNode, StandsStillWhileASensorIsSilentAndGoesOn) {
   robot.cycle();
   EXPECT_EQ(robot.speed(), 0);
   EXPECT_EQ(robot.rows.back().act, Act::Hold);
+  EXPECT_EQ(robot.state().cycle, robot.rows.back().cycle);
   EXPECT_EQ(robot.rows.back().drawn, before) << "the machine is not stepped";
   EXPECT_EQ(robot.treads.leds[0], (Rgb{255, 0, 0}));
   EXPECT_EQ(robot.state().phase, Phase::Running);

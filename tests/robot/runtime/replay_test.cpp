@@ -54,6 +54,14 @@ TEST(LogReplay, GivesEachCommandOfEveryArchitectureAgain) {
   }
 }
 
+TEST(LogReplay, PassesOverSpeedsThatAreNotNumbers) {
+  RunRecord record = record_of("--nstates 1 --s0 2 --att0 2", TurnClock::Cycles);
+  record.rows[40].sensed.neighbours = {{.distance_m = std::nan("")}};  // the node logged a stop
+  const auto replay = value_of(replay_log(record));
+  EXPECT_FALSE(replay.difference) << replay.difference->cycle << replay.difference->what;
+  EXPECT_EQ(replay.stepped, record.head.end->stepped);
+}
+
 TEST(LogReplay, SaysAtWhichCycleSomethingDiffers) {
   const RunRecord record = record_of(kCuriousMachine, TurnClock::Cycles);
   const auto difference = [&record](const auto& change) {

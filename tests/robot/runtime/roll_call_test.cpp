@@ -92,6 +92,7 @@ TEST(RunStarter, BeginsARunOnAllRobotsAtOneInstantAndWaitsForItsEnd) {
   EXPECT_EQ(bench.starter->stage(), RunStarter::Stage::Over);
   EXPECT_THAT(bench.starter->complaints(), IsEmpty());
   EXPECT_EQ(bench.starter->verdict(), RunVerdict::Valid);
+  EXPECT_EQ(std::ranges::count(bench.sent, Order::Kind::Echo, &Order::kind), RollCall::kEchoes);
   for (const auto& robot : bench.robots) {
     EXPECT_EQ(robot->state().phase, Phase::Ended);
     EXPECT_EQ(robot->rows.size(), 49U);

@@ -284,6 +284,13 @@ TEST_F(ShortRun, AllThatAreDueAreAskedBeforeTheFirstAnswer) {
   EXPECT_EQ(decider.now_s, 5.0);
 }
 
+TEST_F(ShortRun, AnInstantInWhichNoRobotIsDueDoesNotBegin) {
+  Listener decider(setup());
+  simulate(setup(), {}, &decider);
+  EXPECT_GE(decider.answered.size(), 3 * 50);
+  EXPECT_EQ(decider.calls.find("bb"), std::string::npos);
+}
+
 TEST_F(ShortRun, EveryStepIsAnInstantOnRequest) {
   Listener decider(setup());
   decider.every_step = true;

@@ -46,6 +46,12 @@ TEST(Forms, APolygonsMeansAreThoseOfManyPoints) {
   EXPECT_NEAR(form.normals[1].x, -1, 1e-15);
 }
 
+TEST(Forms, ABoxIsTheRvrsWhenBothSidesAre) {
+  EXPECT_TRUE(form_of(BoxOutline{kBodySide_m, kBodySide_m}, 0.1).is_rvr);
+  EXPECT_FALSE(form_of(BoxOutline{kBodySide_m, 0.2}, 0.1).is_rvr);
+  EXPECT_FALSE(form_of(BoxOutline{0.2, kBodySide_m}, 0.1).is_rvr);
+}
+
 TEST(Movers, TheRvrKeepsItsNumbersAndOtherOutlinesItsMassAndDrive) {
   EXPECT_EQ(robot_kind(rvr()), rvr_kind());
   EXPECT_EQ(rvr_kind().dynamics, Dynamics{});

@@ -53,9 +53,13 @@ TEST(BodiesTest, AreTooLargeWhenTheyAreInsideEachOtherAllTheTime) {
   for (const Row& row : rows) {
     const TrackedRun run = pressed_run(row.body).track().value();
     const Issue& issue = issue_of(run, IssueCode::BodiesOverlap);
-    EXPECT_THAT(issue.text,
-                AllOf(HasSubstr("rvr1 and rvr2 were "), HasSubstr("mm inside each other"),
-                      HasSubstr("for 30.0 s"), HasSubstr("mission's robot")));
+    EXPECT_THAT(
+        issue.text,
+        AllOf(HasSubstr("rvr1 and rvr2 were "), HasSubstr("mm inside each other"),
+              HasSubstr("for 30.0 s in all, and so were 1 others: "), HasSubstr("mission's robot")))
+        << "rvr3 is in the wall";
+    EXPECT_DOUBLE_EQ(issue.from.value(), 0.1);
+    EXPECT_DOUBLE_EQ(issue.to.value(), 30);
     EXPECT_FALSE(is_error(issue.code));
     const Check* check = find_check(run, kBodies, "");
     ASSERT_NE(check, nullptr);
