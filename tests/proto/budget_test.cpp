@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "proto/internal/gate.h"
+#include "proto/internal/tcp_bytes.h"
 #include "proto/network.h"
 #include "proto/socket.h"
 #include "tests/support/checks.h"
@@ -258,6 +260,27 @@ TEST_F(Budgets, AHostHasSoManyConnections) {
     ServerSocket::Received received;
     return server->receive(received);
   }));
+}
+
+TEST(Gate, ForgetsTheCountOfAClosedConnection) {
+  zmq::context_t context;
+  zmq::socket_t server(context, zmq::socket_type::router);
+  server.set(zmq::sockopt::rcvtimeo, 60'000);
+  const SocketOptions options{.max_connections = 1};
+  Gate gate(context, server, {}, options);
+  server.bind("tcp://127.0.0.1:*");
+  std::optional<RawPeer> peer(server.get(zmq::sockopt::last_endpoint));
+  peer->say(std::string("\0\5there", 7));
+  zmq::message_t name, frame;
+  ASSERT_TRUE(server.recv(name) && server.recv(frame));
+  const Connection connection = connection_at(zmq_msg_get(frame.handle(), ZMQ_SRCFD));
+  const RawPeer second(server.get(zmq::sockopt::last_endpoint));
+  // The gate has seen the first one, too.
+  ASSERT_TRUE(eventually([&] { return gate.refusals().total() == 1; }));
+  *gate.meter_of(connection) = 7;
+  EXPECT_EQ(gate.meter_of(connection)->load(), 7U);
+  peer.reset();
+  EXPECT_TRUE(eventually([&] { return gate.meter_of(connection)->load() == 0; }));
 }
 
 TEST(Network, OfAnAddress) {
