@@ -70,7 +70,7 @@ void check_measures(TableReader& table, const Robot& robot) {
   const NeighbourSensor& sensor = robot.neighbours;
   if (sensor.range_m > 0 && sensor.less_m > 0 && sensor.less_m >= sensor.range_m) {
     complain_of_key(table, "neighbours", "less",
-                    "all distances would be 0: `less` is " + number_text(sensor.less_m) +
+                    "all distances would be 0 or less: `less` is " + number_text(sensor.less_m) +
                         " m, but `range` is " + number_text(sensor.range_m) +
                         " m; give a smaller `less`");
   }
