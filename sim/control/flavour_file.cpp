@@ -26,6 +26,7 @@
 #include "embedded/kWatermelonArgos3Flavour.h"
 #include "embedded/kWatermelonFlavour.h"
 #include "sim/control/internal/flavour_fields.h"
+#include "sim/control/toml_kind.h"
 
 namespace swarmsmith {
 namespace {
@@ -602,7 +603,10 @@ FlavourOrErrors parse_flavour(std::string_view text, const std::filesystem::path
   }
   read_fields(root, flavour);
   root.finish();
-  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  if (!complaints.empty()) {
+    return tl::unexpected(
+        complaints_about(*document, TomlKind::Flavour, file.string(), complaints));
+  }
   return flavour;
 }
 

@@ -12,6 +12,7 @@
 #include "base/text/whole_file.h"
 #include "embedded/kEpuckRobot.h"
 #include "embedded/kRvrRobot.h"
+#include "sim/control/toml_kind.h"
 #include "sim/engine/fitting.h"
 #include "sim/files/internal/field_reader.h"
 #include "sim/files/internal/field_writer.h"
@@ -197,7 +198,9 @@ RobotOrErrors robot_of_text(std::string_view text, const std::filesystem::path& 
   }
   read_devices(root, robot);
   root.finish();
-  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  if (!complaints.empty()) {
+    return tl::unexpected(complaints_about(*document, TomlKind::Robot, file.string(), complaints));
+  }
   return robot;
 }
 
