@@ -143,7 +143,9 @@ Expected<StoreReader::QueryEnd> SqliteReader::query(
     const std::function<void(const std::vector<Cell>&)>& on_row) {
   auto end = run_query(*connection_, sql, limits, on_columns, on_row);
   const std::int64_t schema = schema_of(*connection_);
-  if (end || schema >= kSchemaVersion || !end.error().message.starts_with("no such ")) return end;
+  if (end || connection_->file().empty() || schema >= kSchemaVersion ||
+      !end.error().message.starts_with("no such "))
+    return end;
   Error error = end.error();
   const std::string file = sqlite3_db_filename(connection_->handle(), "main");
   const std::string lacks = limits.typed ? " (" + error.message + ")" : "";
@@ -215,6 +217,11 @@ Expected<std::unique_ptr<StoreReader>> StoreReader::open(const fs::path& named) 
   } catch (const sqlite::SqliteError& error) {
     return refused(error, path);
   }
+}
+
+std::unique_ptr<StoreReader> StoreReader::of_no_store() {
+  return std::make_unique<SqliteReader>(
+      std::make_shared<Connection>(":memory:", SQLITE_OPEN_READWRITE));
 }
 
 Expected<void> check_rows(const fs::path& store) {

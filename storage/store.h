@@ -145,6 +145,8 @@ class StoreReader {
   /// schema is read unchanged; if a query needs something that it lacks, the error says how to make
   /// a store of a newer schema.
   static Expected<std::unique_ptr<StoreReader>> open(const std::filesystem::path& named);
+  /// A reader without a store; only its `query` works, with the values in the statement itself.
+  static std::unique_ptr<StoreReader> of_no_store();
   virtual ~StoreReader() = default;
 
   /// The campaigns by number; a reader from `alone` has only its own.

@@ -3,6 +3,9 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "base/suggestion.h"
 #include "base/text/json.h"
@@ -132,14 +135,54 @@ Rows robot_rows() {
   return rows;
 }
 
-ExitCode run_ls(const LsArguments& arguments, Output& output) {
-  if (arguments.kind == kFlavours || arguments.kind == kRobots) {
-    write_rows(output, arguments.kind == kFlavours ? flavour_rows() : robot_rows(),
-               output.json ? Form::Json : Form::Text);
-    return ExitCode::Done;
+/// The rows as a subquery. The names of built-in things have no quotes.
+std::string as_subquery(const Rows& rows) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < rows.columns.size(); ++i)
+    names.push_back(fmt::format("column{} AS {}", i + 1, rows.columns[i]));
+  std::vector<std::string> values;
+  for (const std::vector<Cell>& cells : rows.cells) {
+    std::vector<std::string> row;
+    for (const Cell& cell : cells)
+      row.push_back(cell.type == Cell::Type::Text ? "'" + cell.text + "'" : cell.text);
+    values.push_back(fmt::format("({})", fmt::join(row, ", ")));
   }
+  return fmt::format("(SELECT {} FROM (VALUES {}))", fmt::join(names, ", "),
+                     fmt::join(values, ", "));
+}
+
+/// The limit of rows for a query.
+std::int64_t row_limit(const LsArguments& arguments, const Output& output) {
   constexpr std::int64_t kShown = 100;
   constexpr std::int64_t kAll = 1'000'000'000;
+  const std::int64_t limit = arguments.limit.value_or(output.json ? 0 : kShown);
+  return limit == 0 ? kAll : limit;
+}
+
+ExitCode show_rows(Rows rows, Output& output) {
+  const bool truncated = rows.truncated;
+  write_rows(output, std::move(rows), output.json ? Form::Json : Form::Text);
+  if (truncated) print_note(output, "`--limit 0` shows all");
+  return ExitCode::Done;
+}
+
+ExitCode list_built_in(const LsArguments& arguments, Output& output) {
+  if (!arguments.store.word.empty() || !arguments.store.option.empty()) {
+    return fail(output, ExitCode::Usage,
+                Error{ErrorKind::BadInput,
+                      "`ls " + arguments.kind + "` lists what is built in: leave the store out"});
+  }
+  const std::string from = as_subquery(arguments.kind == kFlavours ? flavour_rows() : robot_rows());
+  const Kind kind{.name = arguments.kind, .from = from, .columns = "*", .order = "NULL"};
+  auto rows = select(*StoreReader::of_no_store(), statement(kind, arguments, true, false, false),
+                     {.rows = row_limit(arguments, output)});
+  if (!rows) return fail(output, ExitCode::Usage, rows.error());
+  return show_rows(*std::move(rows), output);
+}
+
+ExitCode run_ls(const LsArguments& arguments, Output& output) {
+  if (arguments.kind == kFlavours || arguments.kind == kRobots)
+    return list_built_in(arguments, output);
   const Kind* kind = nullptr;
   for (const Kind& known : kKinds) {
     if (known.name == arguments.kind) kind = &known;
@@ -147,10 +190,9 @@ ExitCode run_ls(const LsArguments& arguments, Output& output) {
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const bool several = (*store)->campaigns().size() > 1;
-  const std::int64_t limit = arguments.limit.value_or(output.json ? 0 : kShown);
   auto rows =
       select(**store, statement(*kind, arguments, output.json, several, (*store)->schema() >= 6),
-             {.rows = limit == 0 ? kAll : limit});
+             {.rows = row_limit(arguments, output)});
   if (!rows) return fail(output, ExitCode::Usage, rows.error());
   letter_ids(*rows);
   const auto stages = StoredStages::read(**store);
@@ -158,10 +200,7 @@ ExitCode run_ls(const LsArguments& arguments, Output& output) {
   if (kind->name == "designs") mark_interrupted(*rows, has_writer(*arguments.store.path()));
   if (!output.json && kind->name == "designs") stages->tell(*rows);
   if (!output.json && is_of_programs(**store)) as_costs(*rows);
-  const bool truncated = rows->truncated;
-  write_rows(output, *std::move(rows), output.json ? Form::Json : Form::Text);
-  if (truncated) print_note(output, "`--limit 0` shows all");
-  return ExitCode::Done;
+  return show_rows(*std::move(rows), output);
 }
 
 }  // namespace

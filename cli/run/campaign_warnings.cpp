@@ -7,6 +7,7 @@
 #include "sim/control/flavour.h"
 #include "sim/engine/fitting.h"
 #include "sim/engine/kept_constants.h"
+#include "sim/mission/footprint.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -91,13 +92,16 @@ std::vector<std::string> looking_for_neighbours(const Method& method) {
 void warn_about_neighbours(const Method& method, const Campaign& campaign,
                            std::vector<std::string>& warnings) {
   const std::vector<std::string> modules = looking_for_neighbours(method);
+  if (modules.empty()) return;
   for (const CampaignMission& mission : campaign.missions) {
-    if (mission.mission.robot.neighbours.range_m > 0 || modules.empty()) continue;
+    const Robot& robot = mission.mission.robot;
+    const double nearest_m = 2 * inradius_of(robot.body.outline);
+    if (robot.neighbours.range_m > nearest_m) continue;
     warnings.push_back("method \"" + method.name + "\": the robot of mission " +
-                       mission.mission.name +
-                       " has `neighbours.range` 0, and never sees a neighbour; these look for "
-                       "neighbours: " +
-                       joined(modules));
+                       mission.mission.name + " never sees a neighbour, because " +
+                       "`neighbours.range` is " + json_number(robot.neighbours.range_m) +
+                       " m, and the centres of two robots are at least " + json_number(nearest_m) +
+                       " m apart; these look for neighbours: " + joined(modules));
   }
 }
 

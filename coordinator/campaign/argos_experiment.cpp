@@ -62,6 +62,7 @@ Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
     original->name = mission.name;
     original->cycles = mission.cycles;
     original->robots = mission.robots;
+    original->robot.name = mission.robot.name;
     if (*original == mission) return known;
   }
   return bad_input(
@@ -194,8 +195,9 @@ Expected<void> check_for_argos(const Controller& controller, const Flavour& flav
 }
 
 Expected<std::string> argos_experiment(const ArgosExperiment& experiment) {
-  return experiment.mission.robot == rvr() ? experiment_of_rvrs(experiment)
-                                           : argos_experiment_of_epucks(experiment);
+  Robot robot = experiment.mission.robot;
+  robot.name = rvr().name;
+  return robot == rvr() ? experiment_of_rvrs(experiment) : argos_experiment_of_epucks(experiment);
 }
 
 }  // namespace swarmsmith

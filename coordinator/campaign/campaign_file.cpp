@@ -17,6 +17,7 @@
 #include "irace_core/search/options.h"
 #include "irace_core/search/start_search.h"
 #include "sim/control/flavour.h"
+#include "sim/control/toml_kind.h"
 #include "sim/engine/fitting.h"
 #include "sim/files/profile_file.h"
 
@@ -377,7 +378,10 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   } else if (complaints.empty()) {
     complain_about_races(root, campaign);
   }
-  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  if (!complaints.empty()) {
+    return tl::unexpected(
+        complaints_about(*document, TomlKind::Campaign, file.string(), complaints));
+  }
   return campaign;
 }
 

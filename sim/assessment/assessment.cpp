@@ -26,7 +26,14 @@ ModuleReport assess_condition(const ModuleSpec& spec, const Subject& subject) {
   ModuleReport report{.module = spec.module, .checks = {}, .rates = {}};
   for (const ConditionTest& test : tests_of(spec, subject.flavour)) {
     report.checks.push_back(check_condition(test, subject));
-    std::ranges::move(rates_of(test, subject), std::back_inserter(report.rates));
+    std::vector<Rate> rates = rates_of(test, subject);
+    // Of a condition on neighbours, the first rate is the one without any.
+    const auto has_none = [](const Rate& rate) { return rate.trials == 0; };
+    if (is_of_neighbours(test) && std::all_of(rates.begin() + 1, rates.end(), has_none)) {
+      report.checks.back().passes = false;
+      report.checks.back().note = kNoneSeen;
+    }
+    std::ranges::move(rates, std::back_inserter(report.rates));
   }
   return report;
 }

@@ -26,6 +26,7 @@
 #include "embedded/kWatermelonArgos3Flavour.h"
 #include "embedded/kWatermelonFlavour.h"
 #include "sim/control/internal/flavour_fields.h"
+#include "sim/control/toml_kind.h"
 
 namespace swarmsmith {
 namespace {
@@ -391,6 +392,21 @@ void check_symbols(TableReader& root, const std::string& key,
   }
 }
 
+/// Modules read a reference model, and this program knows only some. Programs that run external
+/// modules may have others.
+void check_reference(TableReader& root, const Flavour& flavour) {
+  const auto runs_elsewhere = [](const ModuleSpec& spec) { return is_external(spec.module); };
+  if (std::ranges::any_of(flavour.behaviours, runs_elsewhere) ||
+      std::ranges::any_of(flavour.conditions, runs_elsewhere))
+    return;
+  std::vector<std::string> known = {std::string(kRvrModel)};
+  known.insert(known.end(), kStrengthModels.begin(), kStrengthModels.end());
+  if (std::ranges::count(known, flavour.reference) > 0) return;
+  root.complain("reference", "there is no reference model \"" + flavour.reference + "\"" +
+                                 did_you_mean(flavour.reference, known) +
+                                 "; known are: " + joined(known));
+}
+
 /// Checks the keys of a flavour against each other, after each has been checked alone.
 void check_whole(TableReader& root, const Flavour& flavour) {
   for (const auto& [key, modules] : {std::pair("behaviours", &flavour.behaviours),
@@ -408,6 +424,7 @@ void check_whole(TableReader& root, const Flavour& flavour) {
   if (flavour.find(Module::ColorDetection) != nullptr && flavour.floor.labels.size() != 4) {
     root.complain("floor", "color_detection needs four labels in [floor]");
   }
+  check_reference(root, flavour);
   if (flavour.obstacles.near_m >= flavour.obstacles.far_m ||
       flavour.obstacles.neighbour_near_m >= flavour.obstacles.neighbour_far_m) {
     root.complain("obstacles",
@@ -602,7 +619,10 @@ FlavourOrErrors parse_flavour(std::string_view text, const std::filesystem::path
   }
   read_fields(root, flavour);
   root.finish();
-  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  if (!complaints.empty()) {
+    return tl::unexpected(
+        complaints_about(*document, TomlKind::Flavour, file.string(), complaints));
+  }
   return flavour;
 }
 

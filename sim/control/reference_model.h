@@ -15,6 +15,8 @@ inline constexpr int kProximitySensors = 8;
 
 /// The name of this reference model in flavours.
 inline constexpr std::string_view kRvrModel = "rvr";
+/// Those of robots whose proximity sensors give strengths, as the e-puck's (docs/flavours.md).
+inline constexpr std::array<std::string_view, 3> kStrengthModels = {"rm1.1", "rm1.2", "rm1-2018"};
 
 /// Directions of the proximity sensors from the robot's head, in degrees, by index
 /// (argos3-rvr; rvr-automode facts, section 3.1).

@@ -26,8 +26,7 @@ bool gives_strengths(const Robot& robot) {
 /// The reference models that the robot's senses can serve (docs/flavours.md).
 std::span<const std::string_view> models_of(const Robot& robot) {
   static constexpr std::array<std::string_view, 1> kOfDistances = {kRvrModel};
-  static constexpr std::array<std::string_view, 3> kOfStrengths = {"rm1.1", "rm1.2", "rm1-2018"};
-  if (gives_strengths(robot)) return kOfStrengths;
+  if (gives_strengths(robot)) return kStrengthModels;
   return kOfDistances;
 }
 

@@ -9,6 +9,7 @@
 #include "base/text/document.h"
 #include "base/text/table_reader.h"
 #include "base/text/whole_file.h"
+#include "sim/control/toml_kind.h"
 #include "sim/files/internal/read_mission.h"
 #include "sim/files/internal/read_solids.h"
 #include "sim/files/robot_file.h"
@@ -245,7 +246,10 @@ MissionOrErrors parse_mission(std::string_view text, const std::filesystem::path
       read_keys(root, place, entry);
     }
   }
-  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  if (!complaints.empty()) {
+    return tl::unexpected(
+        complaints_about(*document, TomlKind::Mission, file.string(), complaints));
+  }
   return entry;
 }
 

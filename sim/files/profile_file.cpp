@@ -16,6 +16,7 @@
 #include "embedded/kPseudoRealityProfile.h"
 #include "embedded/kRvrProfile.h"
 #include "embedded/kThesisRobotsProfile.h"
+#include "sim/control/toml_kind.h"
 #include "sim/engine/fitting.h"
 #include "sim/files/internal/read_profile.h"
 #include "sim/files/mission_file.h"
@@ -130,7 +131,10 @@ ProfileOrErrors parse_profile(std::string_view text, const std::filesystem::path
   }
   read_fields(root, profile);
   root.finish();
-  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  if (!complaints.empty()) {
+    return tl::unexpected(
+        complaints_about(*document, TomlKind::Profile, file.string(), complaints));
+  }
   return profile;
 }
 

@@ -12,6 +12,7 @@
 #include "base/text/whole_file.h"
 #include "embedded/kEpuckRobot.h"
 #include "embedded/kRvrRobot.h"
+#include "sim/control/toml_kind.h"
 #include "sim/engine/fitting.h"
 #include "sim/files/internal/field_reader.h"
 #include "sim/files/internal/field_writer.h"
@@ -102,7 +103,7 @@ void check_measures(TableReader& table, const Robot& robot) {
   const NeighbourSensor& sensor = robot.neighbours;
   if (sensor.range_m > 0 && sensor.less_m > 0 && sensor.less_m >= sensor.range_m) {
     complain_of_key(table, "neighbours", "less",
-                    "all distances would be 0: `less` is " + number_text(sensor.less_m) +
+                    "all distances would be 0 or less: `less` is " + number_text(sensor.less_m) +
                         " m, but `range` is " + number_text(sensor.range_m) +
                         " m; give a smaller `less`");
   }
@@ -229,7 +230,9 @@ RobotOrErrors robot_of_text(std::string_view text, const std::filesystem::path& 
   }
   read_devices(root, robot);
   root.finish();
-  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  if (!complaints.empty()) {
+    return tl::unexpected(complaints_about(*document, TomlKind::Robot, file.string(), complaints));
+  }
   return robot;
 }
 

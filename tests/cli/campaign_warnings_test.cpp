@@ -111,9 +111,14 @@ TEST(CampaignWarnings, NameModulesThatLookForNeighboursOfARobotThatSeesNone) {
   Campaign campaign = campaign_of(modules);
   campaign.missions[0].mission.robot.neighbours.range_m = 0;
   EXPECT_THAT(warnings_about(campaign),
-              ElementsAre("method \"m\": the robot of mission aggregation has `neighbours.range` "
-                          "0, and never sees a neighbour; these look for neighbours: repulsion, "
+              ElementsAre("method \"m\": the robot of mission aggregation never sees a neighbour, "
+                          "because `neighbours.range` is 0 m, and the centres of two robots are at "
+                          "least 0.286 m apart; these look for neighbours: repulsion, "
                           "inverted_neighbour_count"));
+  campaign.missions[0].mission.robot.neighbours.range_m = 0.29;
+  EXPECT_THAT(warnings_about(campaign), IsEmpty());
+  campaign.missions[0].mission.robot.neighbours.range_m = 0.28;
+  EXPECT_THAT(warnings_about(campaign), ElementsAre(HasSubstr("`neighbours.range` is 0.28 m")));
   campaign.methods[0].behaviours = {"stop"};
   campaign.methods[0].conditions = {"gray_floor"};
   EXPECT_THAT(warnings_about(campaign), IsEmpty());

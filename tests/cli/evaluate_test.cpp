@@ -257,6 +257,27 @@ TEST(Robots, AreListed) {
   EXPECT_EQ(rows[1]["neighbours"], "radio");
 }
 
+TEST(BuiltInLists, TakeConditionsOrderAndLimitAsRowsOfAStoreDo) {
+  const auto names = [](const std::vector<std::string>& words, const char* kind) {
+    std::vector<std::string> command = {"ls", kind, "--json"};
+    command.insert(command.end(), words.begin(), words.end());
+    std::vector<std::string> found;
+    const json answer = json::parse(run_well(command).out);
+    for (const json& row : answer["rows"])
+      found.push_back(row[std::string(kind) == "robots" ? "robot" : "flavour"]);
+    return found;
+  };
+  EXPECT_THAT(names({"--where", "mass_kg > 1"}, "robots"), ElementsAre("rvr"));
+  EXPECT_THAT(names({"--sort", "mass_kg"}, "robots"), ElementsAre("epuck", "rvr"));
+  EXPECT_THAT(names({"--sort", "flavour DESC", "--limit", "1"}, "flavours"),
+              ElementsAre("watermelon-argos3"));
+  EXPECT_THAT(run_well({"ls", "robots", "--limit", "1"}).err, HasSubstr("only the first row"));
+  EXPECT_THAT(refusal({"ls", "robots", "--where", "(("}), HasSubstr("syntax error"));
+  EXPECT_THAT(refusal({"ls", "flavours", "--sort", "nonsense"}),
+              HasSubstr("no such column: nonsense\n"));
+  EXPECT_THAT(refusal({"ls", "robots", "campaign.db"}), HasSubstr("leave the store out"));
+}
+
 TEST(Evaluate, NamesAllProfilesInItsHelp) {
   const std::string help = run({"evaluate", "--help"}).out;
   for (const std::string& name : not_empty(profile_names()))

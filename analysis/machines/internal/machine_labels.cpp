@@ -27,13 +27,15 @@ std::vector<std::string> name_lines(const ModuleSpec& spec) {
   return lines;
 }
 
-/// The letter for the parameter in the thesis.
+/// The letter for the parameter in the thesis, or in the papers on random walks.
 std::string symbol_of(const std::string& parameter) {
   if (parameter == "tau") return "τ";
   if (parameter == "alpha") return "α";
   if (parameter == "beta") return "β";
   if (parameter == "xi") return "ξ";
   if (parameter == "eta") return "η";
+  if (parameter == "rho") return "ρ";
+  if (parameter == "mu") return "μ";
   return parameter;
 }
 

@@ -16,7 +16,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
     text.replace(at, from.size(), to), at += to.size();
 }
 
-/// Labels contain letters, digits, signs of numbers and the five Greek letters of the thesis;
+/// Labels contain letters, digits, signs of numbers and the Greek letters of parameters;
 /// labels of trees and networks also contain an arrow and degree signs.
 std::string tex_text(std::string text) {
   replace_all(text, "τ", "$\\tau$");
@@ -24,6 +24,8 @@ std::string tex_text(std::string text) {
   replace_all(text, "β", "$\\beta$");
   replace_all(text, "ξ", "$\\xi$");
   replace_all(text, "η", "$\\eta$");
+  replace_all(text, "ρ", "$\\rho$");
+  replace_all(text, "μ", "$\\mu$");
   replace_all(text, "→", "$\\rightarrow$");
   replace_all(text, "°", "$^\\circ$");
   return text;

@@ -16,6 +16,7 @@
 #include "sim/control/flavour.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
+#include "sim/files/robot_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -39,6 +40,47 @@ constexpr std::array<LoopFunctions, 5> kLoopFunctions = {
      {kRtGridMission, "libgrid_exploration.so", "grid_exploration", kOfTransferability},
      {kNaXor2Mission, "libaggregation_xor2.so", "aggregation_xor2", kLoopFunctionsOfAll}}};
 
+/// The keys, as `table.key`, of the lines in `sections` that `others` lacks.
+std::vector<std::string> keys_beside(const std::vector<Section>& sections,
+                                     const std::vector<Section>& others) {
+  std::set<std::pair<std::string, std::string>> known;
+  for (const Section& section : others)
+    for (const SectionLine& line : section.lines)
+      known.emplace(section.header + line.key, line.value);
+  std::vector<std::string> keys;
+  for (const Section& section : sections) {
+    const std::string header = section.header.substr(1, section.header.size() - 2);
+    const std::size_t dot = header.find('.');
+    const std::string table = dot == std::string::npos ? "" : header.substr(dot + 1) + ".";
+    for (const SectionLine& line : section.lines)
+      if (!known.contains({section.header + line.key, line.value}))
+        keys.push_back(table + line.key);
+  }
+  return keys;
+}
+
+/// The original simulates RVRs and e-pucks, the latter with any radio range. Gives an error with
+/// the first difference from the more similar one.
+Expected<void> check_robot(const Mission& mission) {
+  std::vector<std::string> fewest;
+  std::string nearest;
+  for (const std::string& name : robot_names()) {
+    Robot known = find_robot(name, {}).value();
+    known.name = mission.robot.name;
+    if (name != rvr().name) known.neighbours.range_m = mission.robot.neighbours.range_m;
+    if (known == mission.robot) return {};
+    std::vector<std::string> keys =
+        keys_beside(robot_sections(mission.robot, "robot"), robot_sections(known, "robot"));
+    if (!nearest.empty() && keys.size() >= fewest.size()) continue;
+    fewest = std::move(keys);
+    nearest = name;
+  }
+  return bad_input(".argos files are for the robots rvr and epuck; the robot `" +
+                   mission.robot.name + "` of the mission " + mission.name +
+                   " differs from the built-in " + nearest +
+                   (fewest.empty() ? "" : " in `" + fewest.front() + "`"));
+}
+
 /// Finds the original mission that equals this one, except for name, duration, number of robots,
 /// light and radio range, which the file can set.
 Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
@@ -54,7 +96,7 @@ Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
     if (original->mission == mission) return known;
   }
   return bad_input("the original software has no loop functions for the mission " + mission.name +
-                   ": its robot, arena, floor, placement or score differ from those of "
+                   ": its arena, floor, placement or score differ from those of "
                    "examples/missions/epuck (rt-aac, rt-for, rt-grid, oc-aac, "
                    "oc-sca, na-xor2)");
 }
@@ -154,23 +196,12 @@ std::vector<std::string> left_out_of_argos(const Profile& profile) {
   said.light.half_width = profile.light.half_width;
   said.ground_color.half_width = profile.ground_color.half_width;
   said.neighbours.miss_rate = profile.neighbours.miss_rate;
-  std::set<std::pair<std::string, std::string>> lines;
-  for (const Section& section : profile_sections(said, "profile"))
-    for (const SectionLine& line : section.lines)
-      lines.emplace(section.header + line.key, line.value);
-  std::vector<std::string> keys;
-  for (const Section& section : profile_sections(profile, "profile")) {
-    const std::string header = section.header.substr(1, section.header.size() - 2);
-    const std::string table = header == "profile" ? "" : header.substr(header.find('.') + 1) + ".";
-    for (const SectionLine& line : section.lines)
-      if (!lines.contains({section.header + line.key, line.value}))
-        keys.push_back(table + line.key);
-  }
-  return keys;
+  return keys_beside(profile_sections(profile, "profile"), profile_sections(said, "profile"));
 }
 
 Expected<std::string> argos_experiment_of_epucks(const ArgosExperiment& experiment) {
   const Mission& mission = experiment.mission;
+  if (auto known = check_robot(mission); !known) return Unexpected(known.error());
   const auto functions = loop_functions_of(mission);
   if (!functions) return Unexpected(functions.error());
   if (mission.arena.lights.size() > 1)

@@ -150,8 +150,11 @@ struct Steering {
     ++(turn == 0 ? straight : turn * side > 0 ? towards : away);
   }
 
+  bool saw_any() const { return straight + towards + away > 0; }
+
   std::string text() const {
-    const double percent = 100.0 / std::max(1, straight + towards + away);
+    if (!saw_any()) return std::string(kNoneSeen);
+    const double percent = 100.0 / (straight + towards + away);
     return fmt::format(
         "robots that saw a neighbour steered towards its side in {:.0f} % of the cycles, to the "
         "other in {:.0f} %, and went straight ahead in {:.0f} %",
@@ -179,8 +182,10 @@ std::vector<Check> check_distance(const DistanceTest& test, const Machine& machi
           Recorder(observe, Sensor::Neighbours));
     changes.push_back(end - start);
   }
-  const bool passes = std::ranges::all_of(
-      changes, [&](double change) { return test.falls ? change < 0 : change > 0; });
+  const bool passes =
+      (test.with_light || steering.saw_any()) && std::ranges::all_of(changes, [&](double change) {
+        return test.falls ? change < 0 : change > 0;
+      });
   const PairDistances pairs = pairs_of(subject.robot);
   return {{.setting = test.with_light ? "a light at the wall"
                                       : fmt::format("group, {:.2g} to {:.2g} m", pairs.nearest_m,

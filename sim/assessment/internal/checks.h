@@ -1,11 +1,15 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "sim/assessment/assessment.h"
 #include "sim/assessment/internal/condition_test.h"
 
 namespace swarmsmith::assessment {
+
+/// The note of a module that uses neighbours and had none: nothing it does can show that it works.
+inline constexpr std::string_view kNoneSeen = "no robot ever saw a neighbour";
 
 /// Runs a single behaviour in all three robots. Throws std::invalid_argument when it is not a
 /// behaviour.

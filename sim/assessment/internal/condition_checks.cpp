@@ -162,8 +162,7 @@ Check check_count(const ConditionTest& test, const Condition& condition, const S
 Check check_condition(const ConditionTest& test, const Subject& subject) {
   const Condition condition =
       make_condition(test, *subject.flavour.find(test.module), {.beta = 1, .eta = 0, .xi = 1});
-  const bool counts =
-      test.trigger == Trigger::Neighbours || test.trigger == Trigger::NeighboursInverted;
+  const bool counts = is_of_neighbours(test);
   return counts ? check_count(test, condition, subject) : check_floor(test, condition, subject);
 }
 

@@ -47,8 +47,7 @@ std::vector<Rate> rates_of(const ConditionTest& test, const Subject& subject) {
       make_condition(test, *flavour.find(test.module), {.beta = kBeta, .eta = kEta, .xi = kXi});
   const Machine machine{
       {{Exploration{kTau}, {{condition, 1}}}, {Exploration{kTau}, {{condition, 0}}}}};
-  const bool counts =
-      test.trigger == Trigger::Neighbours || test.trigger == Trigger::NeighboursInverted;
+  const bool counts = is_of_neighbours(test);
   std::array<Tally, kRobots> tallies{};  // by number of neighbours; for other conditions only the
                                          // first is used
   for_each_cycle(test, machine, subject, [&](const ObservedCycle& cycle) {

@@ -31,6 +31,11 @@ struct ConditionTest {
 /// is not a condition.
 std::vector<ConditionTest> tests_of(const ModuleSpec& spec, const Flavour& flavour);
 
+/// Whether the condition responds to the number of neighbours.
+inline bool is_of_neighbours(const ConditionTest& test) {
+  return test.trigger == Trigger::Neighbours || test.trigger == Trigger::NeighboursInverted;
+}
+
 /// Whether the reading satisfies the condition by the flavour's numbers (thesis facts, section 7).
 /// It is computed here independently, in order to find errors in the control software.
 bool satisfies(const ConditionTest& test, Rgb reading, const FloorModel& floor);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <utility>
+
+#include "base/text/document.h"
+#include "sim/control/toml_kind.h"
 
 namespace swarmsmith {
 namespace {
@@ -50,17 +52,6 @@ std::string_view first_line(std::string_view text) {
   return found;
 }
 
-/// Whether a line of TOML begins with one of these.
-bool has_line(std::string_view text, std::initializer_list<std::string_view> beginnings) {
-  bool found = false;
-  each_line(text, [&](std::string_view line) {
-    found = std::ranges::any_of(beginnings,
-                                [&](std::string_view begin) { return line.starts_with(begin); });
-    return found;
-  });
-  return found;
-}
-
 std::string kind_of_markup(std::string_view text) {
   if (contains(text, "<svg")) return "a picture (SVG)";
   if (contains(text, "<argos-configuration")) {
@@ -80,13 +71,9 @@ bool is_assignment(std::string_view line) {
 }
 
 std::string kind_of_toml(std::string_view text) {
-  if (has_line(text, {"[campaign]", "[[method]]", "[race]", "[[mission]]"}))
-    return "a campaign file; `run` runs it";
-  if (has_line(text, {"[arena]", "[score]", "[instances", "preset"}))
-    return "a mission file; `evaluate MACHINE --mission FILE` takes it";
-  if (has_line(text, {"[proximity]", "[ground", "[neighbours]", "[timing]", "[treads]", "[lidar]"}))
-    return "a profile; `evaluate MACHINE --profile FILE` takes it";
-  return "a TOML file";
+  const auto document = parse_document(text, "");
+  const auto kind = document ? toml_kind_of(*document) : std::nullopt;
+  return kind ? std::string(words_of(*kind)) : "a TOML file";
 }
 
 }  // namespace

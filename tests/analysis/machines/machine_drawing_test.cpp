@@ -4,6 +4,7 @@
 #include <regex>
 #include <sstream>
 
+#include "sim/control/flavour_file.h"
 #include "tests/analysis/machines/machines_to_draw.h"
 #include "tests/support/checks.h"
 
@@ -106,6 +107,14 @@ TEST(MachineTikz, HasThePlacesOfTheSvg) {
   centre << std::fixed << "(" << layout.states[1].centre.x << "," << layout.states[1].centre.y
          << ") circle";
   EXPECT_THAT(tikz, HasSubstr(centre.str()));
+}
+
+TEST(MachineTikz, HasTheLettersOfRandomWalks) {
+  const Flavour walks = value_of(parse_flavour(
+      "format = 1\nbase = \"watermelon\"\n[behaviours]\nlevy_walk = { number = 0 }\n", "w.toml"));
+  const MachineLayout layout = lay_out(Machine{{{LevyWalk{2.77, 0.7}, {}}}}, walks, 84);
+  EXPECT_THAT(tikz_of(layout), HasSubstr("{$\\mu$ = 2.77, $\\rho$ = 0.7};"));
+  EXPECT_THAT(svg_of(layout, ""), HasSubstr(">μ = 2.77, ρ = 0.7<"));
 }
 
 /// The second state is one that nothing leads to.

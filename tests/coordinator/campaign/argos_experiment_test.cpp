@@ -9,6 +9,7 @@
 #include "sim/control/machine_text.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
+#include "sim/files/robot_file.h"
 #include "tests/support/checks.h"
 
 namespace swarmsmith {
@@ -80,6 +81,7 @@ TEST(ArgosExperiment, TakesNameDurationAndRobotsAndNothingElseOfAMission) {
   mission.name = "mine";
   mission.cycles = 605;
   mission.robots = 5;
+  mission.robot.name = "ours";
   const auto text = value_of(argos_experiment({.controller = explorer(), .mission = mission}));
   EXPECT_THAT(text, HasSubstr("length=\"60.5\""));
   EXPECT_THAT(text, HasSubstr("<rvr id=\"rvr_05_55\">"));
@@ -165,7 +167,18 @@ TEST_F(ArgosExperimentOfEPucks, RefusesWhatTheOriginalHasNot) {
   EXPECT_THAT(refusal(changed), HasSubstr("has no loop functions for the mission rt-aac: "));
   changed = experiment("rt-aac.toml");
   changed.mission.robot.drive.track_m = 0.06;
-  EXPECT_THAT(refusal(changed), HasSubstr("has no loop functions for the mission "));
+  EXPECT_THAT(refusal(changed), HasSubstr("differs from the built-in epuck in `drive.track`"));
+  changed.mission = *built_in_mission("aggregation");
+  changed.mission.robot.body.mass_kg = 3;
+  EXPECT_EQ(refusal(changed),
+            ".argos files are for the robots rvr and epuck; the robot `rvr` of the mission "
+            "aggregation differs from the built-in rvr in `body.mass`");
+  changed.mission.robot = rvr_with(CircleOutline{0.1});
+  EXPECT_THAT(refusal(changed), HasSubstr("differs from the built-in rvr in `body.shape`"));
+  const auto turtlebot =
+      find_robot(SWARMSMITH_SOURCE_DIR "/examples/missions/robots/turtlebot4.toml", {});
+  changed.mission.robot = turtlebot.value();
+  EXPECT_THAT(refusal(changed), HasSubstr("the robot `turtlebot4` of the mission aggregation "));
   changed = experiment("rt-aac.toml");
   changed.mission.arena.lights.push_back({});
   EXPECT_THAT(refusal(changed), HasSubstr("has one light"));

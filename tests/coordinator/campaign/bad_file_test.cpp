@@ -343,6 +343,8 @@ TEST(BadCampaign, AMissionFileIsToldToBeOne) {
   EXPECT_THAT(to_string(campaign.error().front()),
               HasSubstr("this is a mission, not a campaign: a campaign file names it ([[mission]] "
                         "with preset = "));
+  EXPECT_THAT(complaints("format = 1\n[body]\nmass = 3\n"),
+              ElementsAre(HasSubstr("this is a robot file; ")));
 }
 
 }  // namespace

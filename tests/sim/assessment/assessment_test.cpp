@@ -104,6 +104,20 @@ TEST(Assessment, HasRoomForRobotsUpToHalfAMetre) {
   EXPECT_NE(too_big(blind), std::nullopt);
 }
 
+// Repulsion seems to pass, because robots that see no one drift apart; with eta = 0 the counts of
+// neighbours do not matter.
+TEST(Assessment, NoModuleThatUsesNeighboursPassesWithoutAny) {
+  Robot blind = rvr();
+  blind.neighbours.range_m = 0;
+  const Report report = assess({watermelon(), *built_in_profile("argos3"), blind});
+  EXPECT_THAT(failing(report), ElementsAre("attraction", "repulsion", "neighbour_count",
+                                           "inverted_neighbour_count"));
+  for (const ModuleReport& module : report.modules) {
+    EXPECT_EQ(module.checks.at(0).note, module.passes() ? "" : "no robot ever saw a neighbour")
+        << id_of(module.module);
+  }
+}
+
 TEST(Assessment, RunsEachBehaviourFiveAndEachConditionTenTimes) {
   const Report report = assessed("watermelon", "argos3");
   for (const ModuleReport& module : report.modules) {

@@ -200,6 +200,15 @@ TEST(FlavourFile, WhatIsWrongWithAnExternalModuleIsSaid) {
                                     "that differ")));
 }
 
+TEST(FlavourFile, OnlyModulesOfOtherProgramsMayReadAnUnknownReferenceModel) {
+  EXPECT_THAT(complaints("base = \"chocolate-epuck\"\nreference = \"rm1.3\"\n"),
+              ElementsAre("mine.toml:3:13: there is no reference model \"rm1.3\" (did you mean "
+                          "\"rm1.1\"?); known are: rvr, rm1.1, rm1.2, rm1-2018"));
+  for (const char* known : {"rvr", "rm1.1", "rm1.2", "rm1-2018"})
+    EXPECT_THAT(complaints(kOnWatermelon + "reference = \"" + known + "\"\n"), IsEmpty());
+  EXPECT_THAT(complaints("reference = \"rm3\"\n" + kColours), IsEmpty());
+}
+
 TEST(FlavourFile, AFlavourIsFoundByNameOrFile) {
   EXPECT_EQ(*find_flavour_file("chocolate", "."), chocolate());
   const auto none = find_flavour_file("chocolat", ".");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/control/flavour.h"
+#include "sim/control/flavour_file.h"
 #include "tests/sim/control/page.h"
 #include "tests/support/not_empty.h"
 
@@ -31,7 +32,12 @@ std::vector<std::pair<std::string, Text>> constants() {
     const bool is_one = f.obstacles.reading != ObstacleModel::Reading::AsSensed;
     return is_one ? short_text(metres) : std::string("-");
   };
+  const auto near = [](F f, double metres) {
+    return f.obstacles.neighbours_as_obstacles ? short_text(metres) : std::string("-");
+  };
   return {
+      {"states", [](F f) { return std::to_string(f.most_states); }},
+      {"transitions", [](F f) { return std::to_string(f.most_transitions); }},
       {"speed_mps", [](F f) { return short_text(f.speed_mps); }},
       {"obstacles.reading",
        [](F f) {
@@ -45,12 +51,19 @@ std::vector<std::pair<std::string, Text>> constants() {
       {"obstacles.longest_sum", [](F f) { return short_text(f.obstacles.longest_sum); }},
       {"obstacles.neighbours_as_obstacles",
        [](F f) { return yes_no(f.obstacles.neighbours_as_obstacles); }},
+      {"obstacles.neighbour_near_m", [near](F f) { return near(f, f.obstacles.neighbour_near_m); }},
+      {"obstacles.neighbour_far_m", [near](F f) { return near(f, f.obstacles.neighbour_far_m); }},
       {"exploration.trigger",
        [](F f) {
          if (f.exploration.trigger == ExplorationModel::Trigger::FrontThenSum)
            return std::string("front readings, side of the sum");
          const bool front = f.exploration.trigger == ExplorationModel::Trigger::FrontReadings;
          return std::string(front ? "front readings" : "vector sum");
+       }},
+      {"exploration.front_slope",
+       [](F f) {
+         const bool is_used = f.exploration.trigger != ExplorationModel::Trigger::VectorSum;
+         return is_used ? short_text(f.exploration.front_slope) : std::string("-");
        }},
       {"exploration.threshold", [](F f) { return short_text(f.exploration.threshold); }},
       {"exploration.turn_length",
@@ -86,6 +99,8 @@ std::vector<std::pair<std::string, Text>> constants() {
       {"floor.black", [range](F f) { return range(f.floor.black); }},
       {"floor.gray", [range](F f) { return range(f.floor.gray); }},
       {"floor.white", [range](F f) { return range(f.floor.white); }},
+      {"floor.labels",
+       [](F f) { return f.floor.labels.empty() ? "-" : std::to_string(f.floor.labels.size()); }},
       {"floor.hue_tolerance_deg",
        [](F f) { return f.floor.labels.empty() ? "-" : short_text(f.floor.hue_tolerance_deg); }},
       {"floor.hue_wraps",
@@ -115,6 +130,17 @@ TEST(FlavoursPage, HasTheConstantsOfTheData) {
         line += " " + text(*flavour) + " |";
       EXPECT_NE(page.find(line), std::string::npos) << "docs/flavours.md lacks the line" << line;
     }
+  }
+}
+
+TEST(FlavoursPage, NamesEachKeyOfAFile) {
+  const std::string page = page_text("flavours.md");
+  for (const Section& section : not_empty(flavour_sections(chocolate(), ""))) {
+    // The modules have a table of their own.
+    if (section.prefix == "behaviours." || section.prefix == "conditions.") continue;
+    for (const SectionLine& line : section.lines)
+      EXPECT_NE(page.find("`" + section.prefix + line.key + "`"), std::string::npos)
+          << "docs/flavours.md lacks " << section.prefix << line.key;
   }
 }
 

@@ -139,10 +139,9 @@ TEST(RobotFile, NumbersFarFromWhatTheBodyCanHaveAreRefused) {
   EXPECT_THAT(complaints("[body]\ninertia = 30\n"), ElementsAre(HasSubstr("`inertia` is 30 kg")));
   EXPECT_THAT(complaints("[body]\ninertia = 20\n"), IsEmpty());
   EXPECT_THAT(complaints("[body]\ninertia = 0.0001\n"), IsEmpty());
-  EXPECT_THAT(
-      complaints("[neighbours]\nless = 0.8\n"),
-      ElementsAre("mine.toml:3:8: all distances would be 0: `less` is 0.8 m, but `range` is "
-                  "0.75 m; give a smaller `less`"));
+  EXPECT_THAT(complaints("[neighbours]\nless = 0.8\n"),
+              ElementsAre("mine.toml:3:8: all distances would be 0 or less: `less` is 0.8 m, but "
+                          "`range` is 0.75 m; give a smaller `less`"));
   EXPECT_THAT(complaints("base = \"epuck\"\n[neighbours]\nrange = 0.07\n"),
               ElementsAre(HasSubstr("`less` is 0.07 m, but `range` is 0.07 m")));
   EXPECT_THAT(complaints("base = \"epuck\"\n[neighbours]\nrange = 0\n"), IsEmpty())
