@@ -112,8 +112,8 @@ class RowWriter {
   void add(Act act) { text_ += name_of(act); }
   void add(const Leds& leds) { text_ += leds_text(leds); }
   void add(const std::string& text) { text_ += csv_field(text); }
-  void add(const LightReadings& lux) {
-    if (lux != LightReadings{}) add_numbers(lux);
+  void add(const EightReadings& lux) {
+    if (lux != EightReadings{}) add_numbers(lux);
   }
   void add(const std::vector<Neighbour>& neighbours) {
     std::vector<double> numbers;
@@ -173,7 +173,7 @@ class RowReader {
     text = cell;
     return "";
   }
-  static std::string read(std::string_view cell, LightReadings& lux) {
+  static std::string read(std::string_view cell, EightReadings& lux) {
     std::vector<double> numbers;
     std::string wanted = read(cell, lux.size(), numbers);
     if (numbers.size() > lux.size()) return "eight numbers or none";

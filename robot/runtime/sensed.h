@@ -53,14 +53,17 @@ using PerFeed = std::array<T, kFeeds>;
 /// The feeds that a controller needs.
 PerFeed<bool> feeds_of(const UsedSenses& used);
 
+/// Of each ring of a robot that nodes drive.
+using EightReadings = std::array<double, kProximitySensors>;
+
 /// The readings of one cycle, as control software receives them; readings of sensors that it does
 /// not need are unknown.
 struct Sensed {
   double time_s = 0;  ///< since the start of the run
-  ProximityReadings proximity_m{};
+  EightReadings proximity_m{};
   Rgb ground;
   std::vector<Neighbour> neighbours;
-  LightReadings light_lux{};
+  EightReadings light_lux{};
 };
 
 /// Gives these readings to control software. `sensed` must outlive the object.
@@ -68,10 +71,10 @@ class SensedSenses final : public Senses {
  public:
   explicit SensedSenses(const Sensed& sensed) : sensed_(&sensed) {}
 
-  const ProximityReadings& proximity() override { return sensed_->proximity_m; }
+  ProximityReadings proximity() override { return sensed_->proximity_m; }
   const Rgb& ground_color() override { return sensed_->ground; }
   std::span<const Neighbour> neighbours() override { return sensed_->neighbours; }
-  const LightReadings& light() override { return sensed_->light_lux; }
+  LightReadings light() override { return sensed_->light_lux; }
   double time_s() override { return sensed_->time_s; }
 
  private:

@@ -1,5 +1,6 @@
 #include "robot/world/sensor_messages.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
@@ -32,9 +33,9 @@ SensesMessage senses_message(const Decider::Question& question, std::int64_t see
   message.seed = seed;
   message.cycle = question.cycle;
   message.time_s = question.time_s;
-  message.ranges_m = senses.proximity();
+  std::ranges::copy(senses.proximity().first<kRangeSensors>(), message.ranges_m.begin());
   message.color = channels_of(senses.ground_color());
-  message.light_lux = senses.light();
+  std::ranges::copy(senses.light().first<kRangeSensors>(), message.light_lux.begin());
   message.neighbours = seen_robots(senses);
   return message;
 }
@@ -44,7 +45,7 @@ std::vector<ToRobot> driver_messages(const SensorTopics& sensors, SimulatedSense
   const Arrival arrival{{}, stamp_ns};
   std::vector<ToRobot> messages;
   if (sensors.ranges) {
-    const ProximityReadings& ranges = senses.proximity();
+    const ProximityReadings ranges = senses.proximity();
     messages.push_back(RangesMessage{arrival, {ranges.begin(), ranges.end()}});
   }
   if (sensors.ground_color) {
@@ -58,7 +59,7 @@ std::vector<ToRobot> driver_messages(const SensorTopics& sensors, SimulatedSense
   }
   if (sensors.neighbours) messages.push_back(NeighboursMessage{arrival, seen_robots(senses)});
   if (sensors.light) {
-    const LightReadings& lux = senses.light();
+    const LightReadings lux = senses.light();
     messages.push_back(LightMessage{arrival, {lux.begin(), lux.end()}});
   }
   return messages;

@@ -104,9 +104,9 @@ void add_floor(NetworkInputs set, const Rgb& color, const FloorModel& model, Inp
 
 /// Adds the readings of the single sensors of both rings.
 void add_strengths(Senses& senses, InputList& inputs) {
-  for (const double strength : senses.proximity())
+  for (const double strength : senses.proximity().first<kProximitySensors>())
     inputs.add(strength);
-  for (const double strength : senses.light())
+  for (const double strength : senses.light().first<kProximitySensors>())
     inputs.add(strength);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "sim/control/flavour.h"
 
@@ -35,24 +36,30 @@ Vector2 sum_along_sensors(const std::array<double, kProximitySensors>& strengths
           left_ahead - right_ahead - s[3] - right_back + left_back + s[7]};
 }
 
-Vector2 sum_along(const RingDirections& directions,
-                  const std::array<double, kProximitySensors>& strengths) {
+/// The sum of the directions of a robot's sensors (none: the RVR's ring), each times its strength.
+Vector2 sum_along(const std::optional<RingDirections>& of_robot,
+                  std::span<const double> strengths) {
+  std::span<const Vector2> directions = kProximityDirections;
+  if (of_robot) directions = *of_robot;
+  SWARMSMITH_ASSERT(directions.size() == strengths.size(), "the flavour is fitted to the robot");
   Vector2 sum;
-  for (std::size_t i = 0; i < strengths.size(); ++i) {
+  for_each_reading(strengths.size(), [&](std::size_t i) {
     sum.x += strengths[i] * directions[i].x;
     sum.y += strengths[i] * directions[i].y;
-  }
+  });
   return sum;
 }
 
 /// The light vector of a model with its own law or directions.
-Vector2 light_by_law(const LightReadings& readings, const LightModel& model) {
-  std::array<double, kProximitySensors> strengths;
-  for (std::size_t i = 0; i < readings.size(); ++i)
+Vector2 light_by_law(LightReadings readings, const LightModel& model) {
+  std::array<double, kMostRingSensors> strengths;
+  double strongest = 0;
+  for_each_reading(readings.size(), [&](std::size_t i) {
     strengths[i] = std::min(1.0, readings[i] / model.full_lux);
-  const double strongest = *std::max_element(strengths.begin(), strengths.end());
+    strongest = std::max(strongest, strengths[i]);
+  });
   if (model.least_reading > 0 && strongest <= model.least_reading) return {};
-  const Vector2 sum = sum_along(model.directions.value_or(kProximityDirections), strengths);
+  const Vector2 sum = sum_along(model.directions, std::span(strengths).first(readings.size()));
   if (!model.unit_vector) return sum;
   // If the readings add up to zero, the light counts as straight ahead (epuck facts, 3.2).
   const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y);
@@ -74,7 +81,7 @@ namespace {
 /// Strengths of readings that are distances. Inlined into the sum, which steering requests in each
 /// cycle: a call would add a tenth to its time.
 [[gnu::always_inline]] inline std::array<double, kProximitySensors> strengths_of_distances(
-    const ProximityReadings& proximity, const ObstacleModel& model) {
+    std::span<const double, kProximitySensors> proximity, const ObstacleModel& model) {
   std::array<double, kProximitySensors> strengths;
   const double near = model.near_m;
   const double far = model.far_m;
@@ -88,20 +95,14 @@ namespace {
   return strengths;
 }
 
-}  // namespace
-
-std::array<double, kProximitySensors> obstacle_strengths(const ProximityReadings& proximity,
-                                                         const ObstacleModel& model) {
-  if (model.reading == ObstacleModel::Reading::AsSensed) return proximity;
-  return strengths_of_distances(proximity, model);
-}
-
-namespace {
-
 /// For a robot whose ring has its own directions, or gives strengths instead of distances.
-Vector2 sum_of_ring(const ProximityReadings& proximity, const ObstacleModel& model) {
-  return sum_along(model.directions.value_or(kProximityDirections),
-                   obstacle_strengths(proximity, model));
+Vector2 sum_of_ring(ProximityReadings proximity, const ObstacleModel& model) {
+  if (model.reading == ObstacleModel::Reading::AsSensed)
+    return sum_along(model.directions, proximity);
+  std::array<double, kMostRingSensors> strengths;
+  for_each_reading(proximity.size(),
+                   [&](std::size_t i) { strengths[i] = obstacle_strength(proximity[i], model); });
+  return sum_along(model.directions, std::span(strengths).first(proximity.size()));
 }
 
 }  // namespace
@@ -110,14 +111,15 @@ double neighbour_strength(double distance_m, const ObstacleModel& model) {
   return ramp(distance_m, model.neighbour_near_m, model.neighbour_far_m);
 }
 
-Vector2 obstacle_sum(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
+Vector2 obstacle_sum(ProximityReadings proximity, std::span<const Neighbour> neighbours,
                      const ObstacleModel& model) {
   Vector2 sum;
   if (model.directions || model.reading == ObstacleModel::Reading::AsSensed) {
     sum = sum_of_ring(proximity, model);
   } else {
-    if (neighbours.empty() && nothing_within(std::span(proximity), model.far_m)) return sum;
-    sum = sum_along_sensors(strengths_of_distances(proximity, model));
+    const auto of_rvr = proximity.first<kProximitySensors>();
+    if (neighbours.empty() && nothing_within(of_rvr, model.far_m)) return sum;
+    sum = sum_along_sensors(strengths_of_distances(of_rvr, model));
   }
   for (const Neighbour& neighbour : neighbours) {
     const double strength = neighbour_strength(neighbour.distance_m, model);
@@ -127,7 +129,7 @@ Vector2 obstacle_sum(const ProximityReadings& proximity, std::span<const Neighbo
   return sum;
 }
 
-Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
+Vector2 obstacle_vector(ProximityReadings proximity, std::span<const Neighbour> neighbours,
                         const ObstacleModel& model) {
   Vector2 sum = obstacle_sum(proximity, neighbours, model);
   const double square = sum.x * sum.x + sum.y * sum.y;
@@ -139,11 +141,11 @@ Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neig
   return sum;
 }
 
-Vector2 light_vector(const LightReadings& lux, const LightModel& model) {
+Vector2 light_vector(LightReadings lux, const LightModel& model) {
   if (model.unit_vector || model.least_reading > 0 || model.directions)
     return light_by_law(lux, model);
   Vector2 sum;
-  for (std::size_t i = 0; i < lux.size(); ++i) {
+  for (std::size_t i = 0; i < kProximitySensors; ++i) {
     const double strength = std::min(1.0, lux[i] / model.full_lux);
     sum.x += strength * kProximityDirections[i].x;
     sum.y += strength * kProximityDirections[i].y;

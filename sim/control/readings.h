@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "sim/control/reference_model.h"
 
@@ -37,16 +38,22 @@ inline constexpr std::array<Vector2, kProximitySensors> kProximityDirections = {
      {-kSqrtHalf, kSqrtHalf},
      {0, 1}}};
 
-/// Unit vectors towards the sensors of a ring, by index.
-using RingDirections = std::array<Vector2, kProximitySensors>;
+/// Calls `act` with the index of each reading of a ring, at least eight times. The first loop is
+/// fast, because its length is fixed.
+template <class Act>
+void for_each_reading(std::size_t count, const Act& act) {
+  for (std::size_t i = 0; i < kProximitySensors; ++i)
+    act(i);
+  for (std::size_t i = kProximitySensors; i < count; ++i)
+    act(i);
+}
+
+/// Unit vectors towards the sensors of a ring, one per reading: zero where a robot has no sensor.
+using RingDirections = std::vector<Vector2>;
 
 /// Strength of the reading of one proximity sensor: prox of the reference model, in [0, 1], or the
 /// inverse distance of the published program in 1/m. 0 when there is no obstacle.
 double obstacle_strength(double distance_m, const ObstacleModel& model);
-
-/// The same for all sensors.
-std::array<double, kProximitySensors> obstacle_strengths(const ProximityReadings& proximity,
-                                                         const ObstacleModel& model);
 
 /// Whether no sensor measures an obstacle up to this distance; then all strengths are 0 for a model
 /// whose `far_m` is this distance.
@@ -63,15 +70,15 @@ double neighbour_strength(double distance_m, const ObstacleModel& model);
 
 /// Vector of all obstacles: w_o of the thesis, P of the published program (rvr-automode facts,
 /// section 4.1). Pass no neighbours when the model does not treat them as obstacles.
-Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
+Vector2 obstacle_vector(ProximityReadings proximity, std::span<const Neighbour> neighbours,
                         const ObstacleModel& model);
 /// The same vector before it is shortened to the model's longest length: for callers that need only
 /// its direction, or whether it is longer than a threshold below that length.
-Vector2 obstacle_sum(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
+Vector2 obstacle_sum(ProximityReadings proximity, std::span<const Neighbour> neighbours,
                      const ObstacleModel& model);
 
 /// Vector of the light: w_l of the thesis (eq. 5.1), each reading as light_i in [0, 1].
-Vector2 light_vector(const LightReadings& lux, const LightModel& model);
+Vector2 light_vector(LightReadings lux, const LightModel& model);
 
 /// Colours are passed by reference: the three bytes of a colour were often just written one by one,
 /// and code that reads two of them at once then stalls.

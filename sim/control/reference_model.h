@@ -13,6 +13,9 @@ namespace swarmsmith {
 
 inline constexpr int kProximitySensors = 8;
 
+/// Another robot may have up to this number of proximity sensors, and of light sensors.
+inline constexpr int kMostRingSensors = 24;
+
 /// The name of this reference model in flavours.
 inline constexpr std::string_view kRvrModel = "rvr";
 /// Those of robots whose proximity sensors give strengths, as the e-puck's (docs/flavours.md).
@@ -56,25 +59,27 @@ struct Neighbour {
   double direction_y = 0;
 };
 
-/// Distances to the nearest obstacle along the eight directions, in metres from the sensor:
+/// Distances to the nearest obstacle, one per sensor of the robot, in metres from the sensor:
 /// -infinity if closer than `kBlindZone_m`, +infinity beyond the range R or without an obstacle. A
-/// flavour computes prox of table 5.1 from them (`obstacle_strength`).
-using ProximityReadings = std::array<double, kProximitySensors>;
+/// flavour computes prox of table 5.1 from them (`obstacle_strength`). There are at least eight: a
+/// robot with fewer sensors reads nothing with the others.
+using ProximityReadings = std::span<const double>;
 
 /// The distances of the sensors that look ahead.
 using FrontProximity = std::span<const double, kFrontSensors>;
 
-/// Lux along the eight directions of the proximity sensors, up to `kMostLight_lux`. The RVR does
-/// not have this ring of sensors; `chocolate` needs it (thesis facts, section 6.1).
-using LightReadings = std::array<double, kProximitySensors>;
+/// Lux at each light sensor of the robot, up to `kMostLight_lux`, and at least eight numbers. The
+/// RVR does not have this ring of sensors; `chocolate` needs it, along the eight directions of the
+/// proximity sensors (thesis facts, section 6.1).
+using LightReadings = std::span<const double>;
 
 /// Readings of the current cycle. They are computed on request, so that a sensor that no module
 /// uses costs nothing; two requests in the same cycle give the same reading.
 class Senses {
  public:
   virtual ~Senses() = default;
-  virtual const ProximityReadings& proximity() = 0;
-  /// The same for the front alone; it may be cheaper to compute than all eight.
+  virtual ProximityReadings proximity() = 0;
+  /// The same for the front of the RVR's ring alone; it may be cheaper to compute than all eight.
   virtual FrontProximity front_proximity() {
     return FrontProximity(proximity().data(), kFrontSensors);
   }
@@ -85,7 +90,7 @@ class Senses {
   /// The number of robots seen or heard in this cycle; `neighbours` may also include robots from
   /// earlier cycles.
   virtual int neighbour_count() { return static_cast<int>(neighbours().size()); }
-  virtual const LightReadings& light() = 0;
+  virtual LightReadings light() = 0;
   /// Time since the start by the robot's clock, in seconds.
   virtual double time_s() = 0;
 };

@@ -121,7 +121,8 @@ Flavour fitted(const Flavour& flavour, const Robot& robot) {
     result.obstacles.directions = *labels;
     result.light.directions = *labels;
   }
-  if (has_own_lights(robot)) result.light.directions = ring_of(robot.light.angles_deg).directions;
+  if (has_own_lights(robot))
+    result.light.directions = directions_of(ring_of(robot.light.angles_deg));
   result.speed_mps = std::min(flavour.speed_mps, robot.drive.max_speed_mps);
   // The RVR's treads skid: a flavour may have a better effective distance between them than the
   // robot.

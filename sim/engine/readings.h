@@ -82,10 +82,10 @@ struct Readings {
   Vector3 spin_radps;               ///< eq. 4.9
   Orientation orientation;          ///< thesis 4.2.5, in the frame of the arena
   double front_light_lux = 0;       ///< thesis 4.2.6
-  LightReadings light_lux{};        ///< the ring of `chocolate`
+  std::vector<double> light_lux;    ///< the ring of `chocolate`, or the robot's own
   Point position_m;                 ///< eq. 4.10, from the start, axes of the arena
   Quaternion rotation;              ///< eq. 4.11, from the start
-  ProximityReadings proximity_m{};  ///< thesis 4.2.9
+  std::vector<double> proximity_m;  ///< thesis 4.2.9
   std::vector<double> lidar_m;      ///< thesis 4.2.10, 719 rays, counter-clockwise from the head
   /// Thesis 5.1. For a radio, all packets that it remembers; those of this cycle are at the end.
   std::vector<Neighbour> neighbours;

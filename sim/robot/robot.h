@@ -39,7 +39,7 @@ struct RobotDrive {
   friend bool operator==(const RobotDrive&, const RobotDrive&) = default;
 };
 
-/// Angles from the robot's head, degrees, counter-clockwise, by index; up to kProximitySensors.
+/// Angles from the robot's head, degrees, counter-clockwise, by index; up to kMostRingSensors.
 using RingAngles = std::vector<double>;
 
 /// Rays around the robot; they begin on a circle around its centre.

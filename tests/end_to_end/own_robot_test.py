@@ -53,6 +53,19 @@ class OwnRobot(ProgramTest):
         self.assertLess(max(abs(x) for x, _ in places), 3 - 0.16)
         self.assertLess(max(abs(y) for _, y in places), 2 - 0.16)
 
+    def test_a_ring_of_24_sensors_has_24_columns(self):
+        angles = [7.5 + 15 * sensor for sensor in range(24)]
+        (self.folder / "footbot.toml").write_text(
+            f"format = 1\n[body]\nshape = \"circle\"\ndiameter = 0.17\n[proximity]\nrays = {angles}\n")
+        self.mission.write_text(MISSION.replace("turtlebot4", "footbot"))
+        rows = ended_well(self.evaluate("--seeds", "1", "--csv", "-", "--readings", "proximity,light_ring")).stdout.splitlines()
+        head = rows[0].split(",")
+        self.assertEqual([name for name in head if name.startswith(("light", "proximity"))],
+                         [f"light{i}_lux" for i in range(24)] + [f"proximity{i}_m" for i in range(24)])
+        cells = [dict(zip(head, row.split(","))) for row in rows[1:] if row[:1].isdigit()]
+        for i in range(24):
+            self.assertTrue(any(row[f"proximity{i}_m"] not in ("", "inf") for row in cells), i)
+
     def test_a_campaign_of_it_goes_on_without_its_files(self):
         self.file.write_text(campaign_text(1350, tests=3, missions=("turtles.toml",), profile="rvr",
                                            methods=('name = "chocolate"',)).replace('name = "turtles.toml"', 'preset = "turtles.toml"'))
@@ -71,7 +84,7 @@ class OwnRobot(ProgramTest):
         whole = robot.read_text()
         for old, new, words in (
                 ("diameter       = 0.342", "diameter       = -0.342", "turtlebot4.toml:"),
-                ("rays   = [65.3,", "rays   = [65.3, 1, 2,", "`rays`"),
+                ("rays   = [65.3,", "rays   = [65.3," + 18 * " 1,", "`rays` has 25 sensors; at most 24 are allowed"),
                 ("diameter       = 0.342", "diameter       = 0.342\ninertia = 1e-30", "`inertia` is 1e-30 kg m2"),
                 ("range  = 2.0", "range  = 2.0\nless = 3", "all distances would be 0"),
                 ("out    = 0.17", "out    = 0.6", "`out` is 0.6 m from the centre"),

@@ -21,7 +21,8 @@ struct RecordedTick {
   int state = 0;    ///< after this tick's transition test
   Rgb floor;
   int neighbours = 0;
-  ProximityReadings proximity{};  ///< +infinity where the file has 0, nothing hit
+  std::array<double, kProximitySensors>
+      proximity{};  ///< +infinity where the file has 0, nothing hit
 };
 
 /// ticks[t][robot]; t = 0 is the start and has no readings.
@@ -38,16 +39,16 @@ class RecordedSenses final : public Senses {
  public:
   RecordedSenses(const std::vector<RecordedTick>& tick, std::size_t robot);
 
-  const ProximityReadings& proximity() override { return tick_->proximity; }
+  ProximityReadings proximity() override { return tick_->proximity; }
   const Rgb& ground_color() override { return tick_->floor; }
   std::span<const Neighbour> neighbours() override { return neighbours_; }
-  const LightReadings& light() override { return light_; }
+  LightReadings light() override { return light_; }
   double time_s() override { return 0; }
 
  private:
   const RecordedTick* tick_;
   std::vector<Neighbour> neighbours_;
-  LightReadings light_{};
+  std::array<double, kProximitySensors> light_{};
 };
 
 }  // namespace swarmsmith

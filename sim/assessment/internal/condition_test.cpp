@@ -126,11 +126,11 @@ class RecordedSenses final : public Senses {
  public:
   explicit RecordedSenses(const Readings& readings) : readings_(readings) {}
 
-  const ProximityReadings& proximity() override { return readings_.proximity_m; }
+  ProximityReadings proximity() override { return readings_.proximity_m; }
   const Rgb& ground_color() override { return readings_.ground_color; }
   std::span<const Neighbour> neighbours() override { return readings_.neighbours; }
   int neighbour_count() override { return readings_.neighbour_count; }
-  const LightReadings& light() override { return readings_.light_lux; }
+  LightReadings light() override { return readings_.light_lux; }
   double time_s() override {
     SWARMSMITH_ASSERT(false, "no condition asks for the time");
     return 0;

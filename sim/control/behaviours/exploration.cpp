@@ -41,7 +41,7 @@ using Turn = TurnAway;
 /// Turns away from the strongest reading of the front (thesis facts, section 6.2). `directions`
 /// holds the directions of the sensors, by index.
 template <std::size_t N>
-Turn turn_from(std::span<const double, N> proximity, const RingDirections& directions,
+Turn turn_from(std::span<const double, N> proximity, std::span<const Vector2> directions,
                Senses& senses, const Flavour& flavour) {
   const ExplorationModel& model = flavour.exploration;
   Front front;
@@ -64,7 +64,10 @@ Turn turn_from(std::span<const double, N> proximity, const RingDirections& direc
 
 Turn turn_from_front(Senses& senses, const Flavour& flavour) {
   if (const auto& directions = flavour.obstacles.directions) {
-    return turn_from(std::span(senses.proximity()), *directions, senses, flavour);
+    const ProximityReadings proximity = senses.proximity();
+    if (proximity.size() > kProximitySensors)
+      return turn_from(proximity, *directions, senses, flavour);
+    return turn_from(proximity.first<kProximitySensors>(), *directions, senses, flavour);  // faster
   }
   // The other sensors are not in front for any slope.
   return turn_from(senses.front_proximity(), kProximityDirections, senses, flavour);

@@ -143,10 +143,10 @@ bool is_shaded(const World& world, double wall_height_m, int robot, const SpaceP
 }
 
 /// The readings of LightRing::Reading::Strength.
-LightReadings light_strengths(const World& world, const Arena& arena, int robot,
-                              std::vector<int>& room) {
+void light_strengths(const World& world, const Arena& arena, int robot, std::vector<int>& room,
+                     std::span<double> readings) {
   constexpr double kFarthest = 2.5;
-  LightReadings readings{};
+  for_each_reading(readings.size(), [&](std::size_t i) { readings[i] = 0; });
   const Body& body = world.body(robot);
   const Ring& ring = world.light_ring();
   const SpacePoint sensor = {body.x, body.y, world.robot().light.height_m};
@@ -166,17 +166,15 @@ LightReadings light_strengths(const World& world, const Arena& arena, int robot,
       readings[i] += strength * std::max(0.0, 1 - 2 * angle / kPi);
     }
   }
-  return readings;
 }
 
 }  // namespace
 
-LightReadings light_ring(const World& world, const Arena& arena, int robot,
-                         std::vector<int>& room) {
+void light_ring(const World& world, const Arena& arena, int robot, std::vector<int>& room,
+                std::span<double> readings) {
   if (world.robot().light.reading == LightRing::Reading::Strength) {
-    return light_strengths(world, arena, robot, room);
+    return light_strengths(world, arena, robot, room, readings);
   }
-  LightReadings readings{};
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const LightSensor sensor =
         sensor_towards(world.body(robot), world.robot().light, world.light_ring().directions[i]);
@@ -190,7 +188,6 @@ LightReadings light_ring(const World& world, const Arena& arena, int robot,
     }
     readings[i] = std::clamp(lux, 0.0, kMostLight_lux);
   }
-  return readings;
 }
 
 }  // namespace swarmsmith

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sim/engine/internal/world.h"
@@ -32,7 +33,8 @@ double front_light(const World& world, const Arena& arena, int robot);
 ///
 /// For LightRing::Reading::Strength it gives the readings defined in robot.h, without noise and not
 /// yet limited to 1; the direction of a light is then seen from the robot's axis. `room` is working
-/// memory.
-LightReadings light_ring(const World& world, const Arena& arena, int robot, std::vector<int>& room);
+/// memory; `readings` has a place for each reading of the ring.
+void light_ring(const World& world, const Arena& arena, int robot, std::vector<int>& room,
+                std::span<double> readings);
 
 }  // namespace swarmsmith

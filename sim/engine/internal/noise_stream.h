@@ -1,12 +1,20 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 #include "base/rng.h"
+#include "sim/control/reference_model.h"
 #include "sim/engine/internal/normal_noise.h"
 
 namespace swarmsmith {
+
+/// How many numbers a cycle takes of a stream that has a number for each sensor of a ring. They are
+/// always eight for up to eight sensors.
+constexpr std::uint64_t numbers_per_cycle(std::size_t sensors) {
+  return sensors <= kProximitySensors ? kProximitySensors : kMostRingSensors;
+}
 
 /// Counter-based noise of one kind, for one robot and run: the number at an index is a function of
 /// seed, name, robot and index, independent of other draws.

@@ -18,8 +18,10 @@ Two limited(Two distance_m, double range_m) {
 
 }  // namespace
 
-ProximityNoise::ProximityNoise(const ProximitySensing& sensing, const Rng& run, int robot)
+ProximityNoise::ProximityNoise(const ProximitySensing& sensing, const Rng& run, int robot,
+                               std::size_t sensors)
     : sensing_(&sensing),
+      per_cycle_(numbers_per_cycle(sensors)),
       ideal_(sensing.sd_m == 0 && sensing.scale_sd == 0 && sensing.phantom_rate == 0 &&
              sensing.largest_miss_rate == 0),
       only_normal_(sensing.sd_m > 0 && sensing.scale_sd == 0 && sensing.phantom_rate == 0 &&
@@ -42,7 +44,7 @@ void ProximityNoise::apply(std::span<double> readings, std::int64_t cycle) const
     store_two(limited(load_two(&readings[pairs]), range), &readings[pairs]);
   if (pairs < readings.size()) readings[pairs] = limited(readings[pairs], range);
   if (ideal_) return;
-  const auto first = static_cast<std::uint64_t>(cycle) * kProximitySensors;
+  const auto first = static_cast<std::uint64_t>(cycle) * per_cycle_;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     double& reading = readings[i];
     if (!only_normal_) {

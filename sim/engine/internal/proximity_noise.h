@@ -14,7 +14,7 @@ class ProximityNoise {
  public:
   /// Draws the numbers that are fixed for the run: the miss rates of the sensors. `sensing` must
   /// outlive the object.
-  ProximityNoise(const ProximitySensing& sensing, const Rng& run, int robot);
+  ProximityNoise(const ProximitySensing& sensing, const Rng& run, int robot, std::size_t sensors);
 
   /// Converts physical distances to readings. A reading is a phantom, uniform in [0.05 m, R]
   /// whatever the distance; or a missed hit, +infinity; or a finite distance times N(1, scale_sd)
@@ -26,13 +26,14 @@ class ProximityNoise {
   double read(double distance_m, std::size_t sensor, std::uint64_t index) const;
 
   const ProximitySensing* sensing_;
-  bool ideal_;        ///< only the limits apply
-  bool only_normal_;  ///< only the limits and N(0, sd) apply
+  std::uint64_t per_cycle_;  ///< numbers of each stream
+  bool ideal_;               ///< only the limits apply
+  bool only_normal_;         ///< only the limits and N(0, sd) apply
   NoiseStream normal_;
   NoiseStream scale_;
   NoiseStream miss_;
   NoiseStream phantom_;
-  std::array<double, kProximitySensors> miss_rates_{};
+  std::array<double, kMostRingSensors> miss_rates_{};
 };
 
 }  // namespace swarmsmith

@@ -84,7 +84,7 @@ void meet_walls(const Body& self, double start_m, const Walls& walls, double ran
   const double clear = walls.clear_radius_m - sight;
   const bool sees_none = clear > 0 && self.x * self.x + self.y * self.y < clear * clear;
   if (sees_none || walls.planes.empty()) {
-    for (std::size_t i = 0; i < distances.size(); i += 2)
+    for (std::size_t i = 0; i < kProximitySensors; i += 2)
       store_two(kNone, &distances[i]);
     return;
   }
@@ -125,7 +125,7 @@ void meet_walls(const Body& self, double start_m, const Walls& walls, double ran
 
 void meet_walls(const Body& self, const Ring& ring, double start_m, const Walls& walls,
                 double range_m, RayDistances& distances) {
-  distances.fill(kInfinity);
+  for_each_reading(ring.readings, [&](std::size_t i) { distances[i] = kInfinity; });
   const double sight = start_m + range_m;
   for (const WallPlane& wall : walls.planes) {
     const double depth = wall.depth_of(self.x, self.y);
@@ -170,7 +170,7 @@ void meet_solid(const Body& self, const Ring& ring, double start_m, const Form& 
   const double dx = at.x - self.x;
   const double dy = at.y - self.y;
   if (dx * dx + dy * dy > sight * sight) return;
-  if (form.is_circle() && ring.directions != kProximityDirections) {
+  if (form.is_circle() && !ring.is_rvr) {
     return meet_circle(self, ring, start_m, form.radius_m, {dx, dy}, distances);
   }
   for (std::size_t i = 0; i < ring.count; ++i) {

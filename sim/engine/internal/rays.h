@@ -18,9 +18,9 @@ inline double ray_start_m(const ProximityRing& ring, const Form& robot) {
   return robot.is_rvr ? kRayStart_m : robot.inradius_m;
 }
 
-/// Distances along the proximity directions from the start of the ray to the first hit; +infinity
-/// for rays without a hit. These are physical distances, without limits and noise.
-using RayDistances = std::array<double, kProximitySensors>;
+/// Distances from the start of each ray of a ring to the first hit; +infinity for rays without a
+/// hit. These are physical distances, without limits and noise. The others are left as they are.
+using RayDistances = std::array<double, kMostRingSensors>;
 
 /// Computes the rays of `self` along kProximityDirections, which start `start_m` from its centre,
 /// as if there were only walls; replaces all distances. Hits beyond `range_m` may be left out. A
@@ -48,9 +48,9 @@ constexpr double sight_of_robots_m(double range_m) {
 /// The reading that the sensor gives for a distance: -infinity below the blind zone, +infinity
 /// beyond the range.
 inline double limited(double distance_m, double range_m) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const double seen = distance_m > range_m ? kInfinity : distance_m;
-  return distance_m < kBlindZone_m ? -kInfinity : seen;
+  constexpr double kUnseen = std::numeric_limits<double>::infinity();
+  const double seen = distance_m > range_m ? kUnseen : distance_m;
+  return distance_m < kBlindZone_m ? -kUnseen : seen;
 }
 
 }  // namespace swarmsmith

@@ -1,5 +1,7 @@
 #include "sim/engine/internal/ring.h"
 
+#include <algorithm>
+
 #include "base/assert.h"
 #include "base/math.h"
 
@@ -13,7 +15,7 @@ Ring label_ring(const ProximityRing& ring) {
 }  // namespace
 
 Ring ring_of(const RingAngles& angles_deg) {
-  SWARMSMITH_ASSERT(angles_deg.size() <= kProximitySensors, "a ring has at most eight sensors");
+  SWARMSMITH_ASSERT(angles_deg.size() <= kMostRingSensors, "files with more are refused");
   Ring ring;
   for (const double angle_deg : angles_deg) {
     const double angle_rad = angle_deg * kPi / 180;
@@ -21,14 +23,20 @@ Ring ring_of(const RingAngles& angles_deg) {
     ring.angles_rad[ring.count] = wrap_angle(angle_rad);
     ring.directions[ring.count++] = {angle.cos, angle.sin};
   }
-  if (angles_deg == ProximityRing::rvr_ring()) ring.directions = kProximityDirections;
+  ring.readings = std::max(ring.readings, ring.count);
+  ring.is_rvr = angles_deg == ProximityRing::rvr_ring();
+  if (ring.is_rvr) std::ranges::copy(kProximityDirections, ring.directions.begin());
   return ring;
 }
 
-std::optional<RayDirections> labels_of(const Robot& robot) {
+RingDirections directions_of(const Ring& ring) {
+  return {ring.directions.begin(), ring.directions.begin() + ring.readings};
+}
+
+std::optional<RingDirections> labels_of(const Robot& robot) {
   const Ring labels = label_ring(robot.proximity);
   if (labels == ring_of(ProximityRing::rvr_ring())) return std::nullopt;
-  return labels.directions;
+  return directions_of(labels);
 }
 
 bool has_own_lights(const Robot& robot) {

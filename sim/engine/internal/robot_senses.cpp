@@ -31,15 +31,15 @@ double miss_rate_of_run(const NeighbourSensing& sensing, const Rng& run, int rob
   return lot.bernoulli(sensing.weak_share) ? sensing.weak_miss_rate : sensing.miss_rate;
 }
 
-/// Adds uniform noise within the half-width to up to eight values, then limits them to [0, 1]. Each
-/// random number of the stream gives four numbers of 16 bits.
+/// Adds uniform noise within the half-width to the values, then limits them to [0, 1]. Each random
+/// number of the stream, from the `first` one on, gives four numbers of 16 bits.
 void blur_strengths(std::span<double> values, double half_width, const NoiseStream& noise,
-                    std::int64_t cycle) {
+                    std::uint64_t first) {
   if (half_width > 0) {
     constexpr double kStep = 0x1.0p-16;
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (i % 4 == 0) bits = noise.at(2 * static_cast<std::uint64_t>(cycle) + i / 4).next();
+      if (i % 4 == 0) bits = noise.at(first + i / 4).next();
       const double share = (static_cast<double>(bits & 0xffffU) + 0.5) * kStep;
       bits >>= 16U;
       values[i] += half_width * (2 * share - 1);
@@ -47,6 +47,11 @@ void blur_strengths(std::span<double> values, double half_width, const NoiseStre
   }
   for (double& value : values)
     value = std::clamp(value, 0.0, 1.0);
+}
+
+/// The first number of a cycle for blur_strengths.
+std::uint64_t first_of_cycle(std::int64_t cycle, std::size_t values) {
+  return static_cast<std::uint64_t>(cycle) * (numbers_per_cycle(values) / 4);
 }
 
 /// Length to which proximity rays must be computed.
@@ -66,7 +71,7 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
       sight_(world, arena.wall_height_m),
       motion_(world.body(robot)),
       proximity_rays_(world, robot, ray_range_m(world.robot().proximity, profile)),
-      proximity_noise_(profile.proximity, run, robot),
+      proximity_noise_(profile.proximity, run, robot, world.proximity_ring().count),
       distorts_proximity_(profile.float32_wire || profile.proximity.touch_is_nothing),
       is_vote_(world.robot().ground.reading == GroundSensor::Reading::Vote),
       ground_sensor_(world.robot().ground.places.front()),
@@ -130,32 +135,32 @@ bool RobotSenses::is_due(Sensor sensor) {
   return true;
 }
 
-const ProximityReadings& RobotSenses::proximity() {
+ProximityReadings RobotSenses::proximity() {
+  const Ring& ring = world_->proximity_ring();
   if (is_due(Sensor::Proximity)) {
     if (world_->robot().proximity.reading == ProximityRing::Reading::Strength) {
       read_strengths();
-      return readings_.proximity_m;
+    } else {
+      proximity_rays_.cast(proximity_m_);
+      proximity_noise_.apply(std::span(proximity_m_).first(ring.count), cycle_.number);
+      if (distorts_proximity_) distort(std::span(proximity_m_).first(ring.count));
     }
-    proximity_rays_.cast(readings_.proximity_m);
-    proximity_noise_.apply(std::span(readings_.proximity_m).first(world_->proximity_ring().count),
-                           cycle_.number);
-    if (distorts_proximity_) distort(readings_.proximity_m);
   }
-  return readings_.proximity_m;
+  return std::span(proximity_m_).first(ring.readings);
 }
 
 void RobotSenses::read_strengths() {
-  const ProximityRing& ring = world_->robot().proximity;
-  const std::size_t count = world_->proximity_ring().count;
-  ProximityReadings& readings = readings_.proximity_m;
-  proximity_rays_.cast(readings);
-  for (double& reading : readings) {
-    const double d = reading;
-    reading = d <= ring.reach_m ? ring.law[0] + (ring.law[1] + ring.law[2] * d) * d : 0;
-    reading = std::clamp(reading, 0.0, 1.0);
-  }
-  blur_strengths(std::span(readings).first(count), profile_->proximity.half_width, strength_noise_,
-                 cycle_.number);
+  const ProximityRing& robot = world_->robot().proximity;
+  const Ring& ring = world_->proximity_ring();
+  proximity_rays_.cast(proximity_m_);
+  for_each_reading(ring.readings, [&](std::size_t i) {
+    const double d = proximity_m_[i];
+    const double strength =
+        d <= robot.reach_m ? robot.law[0] + (robot.law[1] + robot.law[2] * d) * d : 0;
+    proximity_m_[i] = std::clamp(strength, 0.0, 1.0);
+  });
+  blur_strengths(std::span(proximity_m_).first(ring.count), profile_->proximity.half_width,
+                 strength_noise_, first_of_cycle(cycle_.number, ring.count));
 }
 
 FrontProximity RobotSenses::front_proximity() {
@@ -206,7 +211,7 @@ void RobotSenses::count_votes() {
     levels[i] = gray_level(floor) / kMostGray;
   }
   blur_strengths(std::span(levels).first(count), profile_->ground_color.half_width, ground_noise_,
-                 cycle_.number);
+                 first_of_cycle(cycle_.number, kMostGroundPoints));
   if (splits_ground_) {
     const auto channel = [&](std::size_t index) {
       return noisy_channel(0, 255 * levels[std::min(index, count - 1)]);
@@ -325,15 +330,17 @@ void RobotSenses::drop_missed_neighbours() {
   neighbours.resize(kept);
 }
 
-const LightReadings& RobotSenses::light() {
+LightReadings RobotSenses::light() {
+  const Ring& ring = world_->light_ring();
+  const auto readings = std::span(light_lux_).first(ring.readings);
   if (is_due(Sensor::LightRing)) {
-    readings_.light_lux = light_ring(*world_, *arena_, robot_, room_);
+    light_ring(*world_, *arena_, robot_, room_, readings);
     if (world_->robot().light.reading == LightRing::Reading::Strength) {
-      blur_strengths(std::span(readings_.light_lux).first(world_->light_ring().count),
-                     profile_->light.half_width, light_noise_, cycle_.number);
+      blur_strengths(readings.first(ring.count), profile_->light.half_width, light_noise_,
+                     first_of_cycle(cycle_.number, ring.count));
     }
   }
-  return readings_.light_lux;
+  return readings;
 }
 
 void RobotSenses::read_motion(Sensors sensors) {
@@ -366,9 +373,15 @@ void RobotSenses::round_scan(std::span<double> ranges_m) const {
 const Readings& RobotSenses::read(Sensors sensors) {
   read_motion(sensors);
   if (sensors.has(Sensor::GroundColor)) ground_color();
-  if (sensors.has(Sensor::Proximity)) proximity();
+  if (sensors.has(Sensor::Proximity)) {
+    const ProximityReadings proximity = this->proximity();
+    readings_.proximity_m.assign(proximity.begin(), proximity.end());
+  }
   if (sensors.has(Sensor::Neighbours)) neighbours();
-  if (sensors.has(Sensor::LightRing)) light();
+  if (sensors.has(Sensor::LightRing)) {
+    const LightReadings light = this->light();
+    readings_.light_lux.assign(light.begin(), light.end());
+  }
   if (sensors.has(Sensor::FrontLight) && is_due(Sensor::FrontLight)) {
     readings_.front_light_lux = front_light(*world_, *arena_, robot_);
   }

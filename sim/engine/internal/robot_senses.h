@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -71,12 +72,12 @@ class RobotSenses final : public SimulatedSenses {
   /// noise of such a reading depends on its number, 0 at the start, instead of the cycle.
   void read_at_beat(std::int64_t now);
 
-  const ProximityReadings& proximity() override;
+  ProximityReadings proximity() override;
   FrontProximity front_proximity() override;
   const Rgb& ground_color() override;
   std::span<const Neighbour> neighbours() override;
   int neighbour_count() override;
-  const LightReadings& light() override;
+  LightReadings light() override;
   double time_s() override { return cycle_.time_s; }
 
   const Readings& read(Sensors sensors) override;
@@ -130,6 +131,8 @@ class RobotSenses final : public SimulatedSenses {
   Cycle cycle_;
   Sensors computed_;  ///< the other sensors have readings of an earlier cycle
   Readings readings_;
+  RayDistances proximity_m_{};
+  std::array<double, kMostRingSensors> light_lux_{};
   RayDistances front_m_{};    ///< for front_proximity; only the first values are readings
   std::vector<int> room_;     ///< for indices of movers
   std::vector<int> between_;  ///< a second one, while room_ is in use

@@ -66,7 +66,7 @@ void ProximityRays::meet_solids(RayDistances& distances) {
 }
 
 RayDistances ray_distances(const World& world, int robot, double range_m) {
-  RayDistances distances;
+  RayDistances distances{};
   ProximityRays(world, robot, range_m).cast(distances);
   return distances;
 }

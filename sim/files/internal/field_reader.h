@@ -148,7 +148,7 @@ class FieldReader {
     if (auto read = read_changed_outline(*table, {0.005, 5}, outline)) outline = std::move(*read);
   }
   void angles(std::string_view key, std::vector<double>& angles) {
-    read_list(key, kProximitySensors, "sensors", "angles in degrees, such as [0, 45, -45]",
+    read_list(key, kMostRingSensors, "sensors", "angles in degrees, such as [0, 45, -45]",
               {-360, 360}, angles);
   }
   void numbers(std::string_view key, std::array<double, 3>& numbers, FieldLimits limits) {

@@ -109,7 +109,8 @@ TEST(ReadingColumns, OfAllSensorsAreDistinctAndFilled) {
   EXPECT_TRUE(distinct.contains("lidar718_m"));
   Readings readings;
   readings.lidar_m.assign(719, 0.25);
-  readings.proximity_m[7] = -std::numeric_limits<double>::infinity();
+  readings.light_lux.assign(kProximitySensors, 100);
+  readings.proximity_m.assign(kProximitySensors, -std::numeric_limits<double>::infinity());
   std::string line;
   columns.append_cells(line, &readings);
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(line, ',')), columns.names().size());

@@ -19,8 +19,8 @@ Arrival at_ms(int when) {
 TEST(Feeds, MapProximityToItsRange) {
   Feeds feeds({});
   feeds.hear(RangesMessage{at_ms(5), {0.0, 0.049, 0.05, 0.4, 0.41, kInfinity, -kInfinity, 2.0}});
-  const ProximityReadings wanted = {-kInfinity, -kInfinity, 0.05,       0.4,
-                                    kInfinity,  kInfinity,  -kInfinity, kInfinity};
+  const EightReadings wanted = {-kInfinity, -kInfinity, 0.05,       0.4,
+                                kInfinity,  kInfinity,  -kInfinity, kInfinity};
   EXPECT_EQ(feeds.sensed().proximity_m, wanted);
   EXPECT_EQ(feeds.age(Feed::Proximity, TimePoint(milliseconds(12))), milliseconds(7));
   EXPECT_EQ(feeds.age(Feed::Ground, TimePoint(milliseconds(12))), std::nullopt);

@@ -45,6 +45,8 @@ TEST(RobotKind, IsDrivenWhenItsSensorsGiveWhatMessagesCarry) {
   Robot robot = rover();
   robot.proximity.rays_deg.pop_back();
   EXPECT_THAT(no_node_drives(robot).value_or(""), HasSubstr("7 proximity and 7 light sensors"));
+  robot.proximity.rays_deg.resize(24);
+  EXPECT_THAT(no_node_drives(robot).value_or(""), HasSubstr("24 proximity and 24 light sensors"));
   robot = rover();
   robot.light.reading = LightRing::Reading::Strength;
   EXPECT_THAT(no_node_drives(robot).value_or(""), HasSubstr("light sensors that give strengths"));

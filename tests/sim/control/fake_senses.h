@@ -20,7 +20,7 @@ inline Neighbour neighbour_at(double distance_m, double bearing_deg) {
 /// obstacles, no neighbours and no light, and the floor is the arena's grey.
 class FakeSenses final : public Senses {
  public:
-  const ProximityReadings& proximity() override {
+  ProximityReadings proximity() override {
     ++proximity_asked;
     return distances;
   }
@@ -32,7 +32,7 @@ class FakeSenses final : public Senses {
     ++neighbours_asked;
     return others;
   }
-  const LightReadings& light() override {
+  LightReadings light() override {
     ++light_asked;
     return lux;
   }
@@ -60,11 +60,11 @@ class FakeSenses final : public Senses {
     return *this;
   }
 
-  ProximityReadings distances{kNothing, kNothing, kNothing, kNothing,
-                              kNothing, kNothing, kNothing, kNothing};
+  std::array<double, kProximitySensors> distances{kNothing, kNothing, kNothing, kNothing,
+                                                  kNothing, kNothing, kNothing, kNothing};
   Rgb floor{127, 127, 127};
   std::vector<Neighbour> others;
-  LightReadings lux{};
+  std::array<double, kProximitySensors> lux{};
   double now_s = 0;
   int proximity_asked = 0;
   int ground_asked = 0;

@@ -59,17 +59,17 @@ class TravelledSenses final : public Senses {
   TravelledSenses(const Decider::Question& question, const UsedSenses& used)
       : used_(used), time_s_(question.time_s) {
     // Not in the order in which a controller asks.
-    if (used.light) light_ = question.senses.light();
+    if (used.light) light_ = copy_of(question.senses.light());
     if (used.neighbours) {
       const std::span<const Neighbour> seen = question.senses.neighbours();
       neighbours_.assign(seen.begin(), seen.end());
       count_ = question.senses.neighbour_count();
     }
     if (used.ground_color) ground_ = question.senses.ground_color();
-    if (used.proximity) proximity_ = question.senses.proximity();
+    if (used.proximity) proximity_ = copy_of(question.senses.proximity());
   }
 
-  const ProximityReadings& proximity() override {
+  ProximityReadings proximity() override {
     need(used_.proximity, "proximity");
     return proximity_;
   }
@@ -85,24 +85,27 @@ class TravelledSenses final : public Senses {
     need(used_.neighbours, "neighbours");
     return count_;
   }
-  const LightReadings& light() override {
+  LightReadings light() override {
     need(used_.light, "light");
     return light_;
   }
   double time_s() override { return time_s_; }
 
  private:
+  static std::vector<double> copy_of(std::span<const double> ring) {
+    return {ring.begin(), ring.end()};
+  }
   static void need(bool travelled, const std::string& what) {
     if (!travelled) throw std::logic_error(what + " was asked for, and has not travelled");
   }
 
   UsedSenses used_;
   double time_s_;
-  ProximityReadings proximity_{};
+  std::vector<double> proximity_;
   Rgb ground_;
   std::vector<Neighbour> neighbours_;
   int count_ = 0;
-  LightReadings light_{};
+  std::vector<double> light_;
 };
 
 /// Runs the same control software on the other side of the seam.

@@ -30,9 +30,11 @@ struct Scene {
 
   World world() const { return World(arena, rvr(), poses, ContactModel::Box2d); }
   double front() const { return front_light(world(), arena, 0); }
-  LightReadings ring() const {
+  std::array<double, kProximitySensors> ring() const {
     std::vector<int> room;
-    return light_ring(world(), arena, 0, room);
+    std::array<double, kProximitySensors> lux{};
+    light_ring(world(), arena, 0, room, lux);
+    return lux;
   }
   bool occluded(const SpacePoint& sensor, const SpacePoint& light) const {
     return is_occluded(world(), arena.wall_height_m, 0, sensor, light);
@@ -132,7 +134,7 @@ TEST(LightRing, WeighsEachLightByTheCosineToIt) {
   scene.poses[0] = {0.5, 0.25, 0.3};
   const Light light = {.x_m = 1.5, .y_m = 1.0, .z_m = 0.75, .intensity_cd = 1000};
   scene.arena.lights = {light};
-  const LightReadings ring = scene.ring();
+  const auto ring = scene.ring();
   int dark = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const double angle = 0.3 + kProximityDirections_deg[i] * kPi / 180;
@@ -174,7 +176,8 @@ TEST(LightRing, OfItsOwnSaysWhereTheLightIs) {
   robot.light.angles_deg = {0, 90, 180, 270};
   const World world(scene.arena, robot, scene.poses, ContactModel::Box2d);
   std::vector<int> room;
-  const LightReadings lux = light_ring(world, scene.arena, 0, room);
+  std::array<double, kProximitySensors> lux{};
+  light_ring(world, scene.arena, 0, room, lux);
   const Vector2 light = light_vector(lux, fitted(**find_flavour("chocolate"), robot).light);
   EXPECT_NEAR(atan2(light.y, light.x), kPi / 2, 1e-9);
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "base/math.h"
@@ -17,12 +18,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// All sensors at this distance, for so many cycles.
 std::vector<double> readings_of(const ProximitySensing& sensing, double distance, int cycles,
-                                std::uint64_t seed = 1) {
-  const ProximityNoise noise(sensing, Rng(seed), 0);
+                                std::uint64_t seed = 1, std::size_t sensors = kProximitySensors) {
+  const ProximityNoise noise(sensing, Rng(seed), 0, sensors);
   std::vector<double> all;
   for (int cycle = 1; cycle <= cycles; ++cycle) {
-    RayDistances readings;
-    readings.fill(distance);
+    std::vector<double> readings(sensors, distance);
     noise.apply(readings, cycle);
     all.insert(all.end(), readings.begin(), readings.end());
   }
@@ -65,6 +65,16 @@ TEST(ProximityNoise, MissesEachSensorAtARateOfItsOwn) {
   }
   // Counting blurs the rates by 0.006 at most.
   EXPECT_LT(ks_statistic(rates, [](double x) { return std::fmin(x / 0.2, 1); }), kKsLimit);
+}
+
+TEST(ProximityNoise, OfEachOf24SensorsIsItsOwn) {
+  const std::vector<double> normal = readings_of({.sd_m = 0.01}, 0.2, 2, 1, 24);
+  EXPECT_EQ(std::set(normal.begin(), normal.end()).size(), 48U) << "in two cycles";
+  const std::vector<double> all = readings_of({.largest_miss_rate = 0.2}, 0.2, 2000, 1, 24);
+  std::array<int, 24> missed{};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    missed.at(i % 24) += all[i] == kInfinity ? 1 : 0;
+  EXPECT_GT(std::set(missed.begin(), missed.end()).size(), 15U) << "each has a rate of its own";
 }
 
 TEST(ProximityNoise, AMissedHitIsOneOfTheBlindZoneToo) {

@@ -27,7 +27,7 @@ RayDistances nothing() {
 /// All eight rays against all segments.
 RayDistances plain_distances(const Body& self, const std::vector<Wall>& segments) {
   RayDistances distances = nothing();
-  for (std::size_t i = 0; i < distances.size(); ++i) {
+  for (std::size_t i = 0; i < kProximitySensors; ++i) {
     const double angle = pose_of(self).theta + kProximityDirections_deg[i] * kPi / 180;
     const Point direction = {std::cos(angle), std::sin(angle)};
     const Point start = {self.x + kRayStart_m * direction.x, self.y + kRayStart_m * direction.y};
@@ -40,7 +40,7 @@ RayDistances plain_distances(const Body& self, const std::vector<Wall>& segments
 
 /// Equal within rounding up to `range`; beyond it, only both beyond.
 void expect_same(const RayDistances& got, const RayDistances& want, double range) {
-  for (std::size_t i = 0; i < got.size(); ++i) {
+  for (std::size_t i = 0; i < kProximitySensors; ++i) {
     if (want[i] <= range - 1e-9) {
       ASSERT_NEAR(got[i], want[i], 1e-9) << "ray " << i;
     } else {
@@ -127,8 +127,8 @@ void expect_plain_distances_among_things(const Outline& robot, std::uint64_t see
     const World world(arena, rvr_with(robot), poses, ContactModel::Box2d);
     const double out = world.form(0).inradius_m;
     const RayDistances distances = ray_distances(world, 0, 0.4);
-    RayDistances want;
-    for (std::size_t ray = 0; ray < want.size(); ++ray) {
+    RayDistances want{};
+    for (std::size_t ray = 0; ray < kProximitySensors; ++ray) {
       const double angle = poses[0].theta + kProximityDirections_deg[ray] * kPi / 180;
       const Point direction = {std::cos(angle), std::sin(angle)};
       const Point start = {poses[0].x + out * direction.x, poses[0].y + out * direction.y};
@@ -152,7 +152,7 @@ TEST(Rays, WhatIsKeptInMindOfWallsAndObstaclesChangesNoDistance) {
       const double most = fast ? 1.55 : 0.3;
       world.command(0, {rng.uniform(-most, most), rng.uniform(-most, most)});
       world.advance(10);
-      RayDistances distances;
+      RayDistances distances{};
       rays.cast(distances);
       EXPECT_EQ(distances, ray_distances(world, 0, 0.4));
     }

@@ -75,8 +75,14 @@ TEST(RobotFile, BadFilesAreRefusedWithASentenceEach) {
   EXPECT_THAT(
       complaints("base = \"epuck\"\n[ground]\nmajority = 0\n"),
       ElementsAre(HasSubstr("a vote of 15 readings needs a `majority` from 1 to 14, not 0")));
-  EXPECT_THAT(complaints("[proximity]\nrays = [1, 2, 3, 4, 5, 6, 7, 8, 9]\n"),
-              ElementsAre("mine.toml:3:8: `rays` has 9 sensors; at most 8 are allowed"));
+  std::string rays = "0";
+  for (int more = 1; more < 24; ++more)
+    rays += ", 1";
+  EXPECT_TRUE(parse_robot("format = 1\n[proximity]\nrays = [" + rays + "]\n", "mine.toml"));
+  EXPECT_THAT(complaints("[proximity]\nrays = [" + rays + ", 2]\n"),
+              ElementsAre("mine.toml:3:8: `rays` has 25 sensors; at most 24 are allowed"));
+  EXPECT_THAT(complaints("[light]\nangles = [" + rays + ", 2]\n"),
+              ElementsAre("mine.toml:3:10: `angles` has 25 sensors; at most 24 are allowed"));
   EXPECT_THAT(complaints("[proximity]\nlabels = [1, 2]\n"),
               ElementsAre(HasSubstr("the ring has 8 rays and 2 labels")));
   EXPECT_THAT(complaints("[proximity]\nrays = [0]\nlabels = [1, 2]\n"),
