@@ -56,7 +56,7 @@ TEST(BodiesTest, AreTooLargeWhenTheyAreInsideEachOtherAllTheTime) {
     EXPECT_THAT(
         issue.text,
         AllOf(HasSubstr("rvr1 and rvr2 were "), HasSubstr("mm inside each other"),
-              HasSubstr("for 30.0 s in all, and so were 1 others: "), HasSubstr("mission's robot")))
+              HasSubstr("for 30.0 s in all, and so was 1 other: "), HasSubstr("mission's robot")))
         << "rvr3 is in the wall";
     EXPECT_DOUBLE_EQ(issue.from.value(), 0.1);
     EXPECT_DOUBLE_EQ(issue.to.value(), 30);
