@@ -18,9 +18,8 @@
 namespace swarmsmith {
 namespace {
 
-/// Range and step of the shifts that are tried; the best one is then refined twice.
+/// Range (to 1.5 s) and step of the shifts that are tried; the best one is then refined twice.
 constexpr double kLeast_s = -0.5;
-constexpr double kMost_s = 1.5;
 constexpr double kStep_s = 0.02;
 constexpr int kShifts = 101;
 constexpr double kFineStep_s = 0.005;
