@@ -95,9 +95,8 @@ std::optional<std::string> misfit(NetworkInputs inputs, const Robot& robot) {
                       : "light sensors that give lux");
 }
 
-BodyMeasures measures_of(const RobotBody& body) {
-  const Form form = form_of(body.outline, body.height_m);
-  return {.radius_m = form.radius_m, .plate_inertia_kg_m2 = body.mass_kg * form.mean_radius2_m2};
+double plate_inertia_of(const RobotBody& body) {
+  return body.mass_kg * form_of(body.outline, body.height_m).mean_radius2_m2;
 }
 
 std::vector<Point> ground_points_outside(const Robot& robot) {

@@ -24,12 +24,8 @@ std::optional<std::string> misfit(const Profile& profile, const Robot& robot);
 /// they can: its rings must have the single sensors that the network reads.
 std::optional<std::string> misfit(NetworkInputs inputs, const Robot& robot);
 
-/// Measures that follow from the outline of a body.
-struct BodyMeasures {
-  double radius_m = 0;             ///< from the centre to the farthest point
-  double plate_inertia_kg_m2 = 0;  ///< of a plate with its outline and mass
-};
-BodyMeasures measures_of(const RobotBody& body);
+/// Moment of inertia, in kg m2, of a plate with the body's outline and mass.
+double plate_inertia_of(const RobotBody& body);
 
 /// The points of the robot's ground sensor that are outside its body.
 std::vector<Point> ground_points_outside(const Robot& robot);

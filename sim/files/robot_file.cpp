@@ -72,9 +72,9 @@ void check_measures(TableReader& table, const Robot& robot) {
   constexpr double kMostTimes = 1000;  ///< between the inertia of a plate and the robot's
   constexpr double kMostRadii = 3;
   constexpr double kNear_m = 0.5;  ///< the RVR's places on a small body are within it
-  const BodyMeasures measures = measures_of(robot.body);
+  const double radius_m = circumradius_of(robot.body.outline);
   const double inertia = robot.body.inertia_kg_m2;
-  const double plate = measures.plate_inertia_kg_m2;
+  const double plate = plate_inertia_of(robot.body);
   if (inertia != 0 && (inertia < plate / kMostTimes || inertia > plate * kMostTimes)) {
     complain_of_key(table, "body", "inertia",
                     "`inertia` is " + number_text(inertia) +
@@ -83,10 +83,10 @@ void check_measures(TableReader& table, const Robot& robot) {
                         "the plate's");
   }
   const auto check_place = [&](std::string_view device, std::string_view key, double out_m) {
-    if (out_m <= std::max(kNear_m, kMostRadii * measures.radius_m)) return;
+    if (out_m <= std::max(kNear_m, kMostRadii * radius_m)) return;
     complain_of_key(table, device, key,
                     "`" + std::string(key) + "` is " + number_text(out_m) +
-                        " m from the centre, but the body ends " + number_text(measures.radius_m) +
+                        " m from the centre, but the body ends " + number_text(radius_m) +
                         " m from it; at most 0.5 m, or three times the body's radius, is allowed");
   };
   check_place("proximity", "start", robot.proximity.start_m);
