@@ -6,6 +6,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/file_printer.h"
 #include "sim/control/flavour_file.h"
+#include "sim/control/flavour_text.h"
 #include "sim/files/profile_file.h"
 
 namespace swarmsmith::cli {

@@ -5,6 +5,7 @@
 #include "base/text/document.h"
 #include "base/text/table_reader.h"
 #include "sim/control/flavour_file.h"
+#include "sim/control/flavour_text.h"
 #include "sim/files/profile_file.h"
 
 namespace swarmsmith {

@@ -9,6 +9,7 @@
 #include "proto/scenario.pb.h"
 #include "proto/scenario/target_message.h"
 #include "sim/control/flavour_file.h"
+#include "sim/control/flavour_text.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 

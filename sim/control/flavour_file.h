@@ -7,7 +7,6 @@
 
 #include "base/expected.h"
 #include "base/text/table_reader.h"
-#include "base/text/toml_text.h"
 #include "sim/control/flavour.h"
 
 namespace swarmsmith {
@@ -36,13 +35,6 @@ FlavourOrErrors parse_flavour(std::string_view text, const std::filesystem::path
 /// Reads the keys of a flavour, `name` included, from a table of another file. Errors are added to
 /// the table's complaints.
 Flavour read_flavour_table(TableReader& table);
-
-/// The whole flavour as lines; `header` is the name of the table that holds them, such as
-/// "method.flavour".
-std::vector<Section> flavour_sections(const Flavour& flavour, const std::string& header);
-
-/// The whole flavour as the text of a file that parse_flavour reads back.
-std::string flavour_text(const Flavour& flavour);
 
 /// The custom flavours in the [[method]] tables of a campaign's text, as stores keep it. Flavours
 /// that cannot be read are left out.

@@ -10,6 +10,7 @@
 #include "base/text/toml_text.h"
 #include "sim/control/controller.h"
 #include "sim/control/flavour_file.h"
+#include "sim/control/flavour_text.h"
 #include "sim/control/foreign_text.h"
 #include "sim/files/internal/file_kind.h"
 #include "sim/files/profile_file.h"

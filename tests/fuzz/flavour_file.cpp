@@ -1,4 +1,5 @@
 #include "sim/control/flavour_file.h"
+#include "sim/control/flavour_text.h"
 
 #include <string>
 #include <vector>

@@ -7,7 +7,7 @@
 #include "coordinator/campaign/internal/race_options.h"
 #include "coordinator/campaign/internal/target_sections.h"
 #include "sim/control/flavour.h"
-#include "sim/control/flavour_file.h"
+#include "sim/control/flavour_text.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 

@@ -20,6 +20,9 @@ struct FlavourLimits {
 template <class Value, std::size_t Count = 2>
 using FlavourChoices = std::array<std::pair<std::string_view, Value>, Count>;
 
+/// Files have gray levels from 0 to 1, flavours have thousandths.
+inline constexpr double kGrayThousandths = 1000;
+
 inline constexpr FlavourChoices<ObstacleModel::Reading, 3> kObstacleReadings = {
     {{"linear", ObstacleModel::Reading::Linear},
      {"1/d", ObstacleModel::Reading::InverseDistance},

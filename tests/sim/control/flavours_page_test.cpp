@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/control/flavour.h"
-#include "sim/control/flavour_file.h"
+#include "sim/control/flavour_text.h"
 #include "tests/sim/control/page.h"
 #include "tests/support/not_empty.h"
 
