@@ -75,11 +75,15 @@ std::vector<Point3> at_height(const std::vector<Point>& points, double height_m)
   return result;
 }
 
+/// A point of a body with this pose, at this height in the world.
+Point3 placed(const Pose& pose, double height_m, Point own) {
+  const double c = std::cos(pose.theta);
+  const double s = std::sin(pose.theta);
+  return {pose.x + c * own.x - s * own.y, pose.y + s * own.x + c * own.y, height_m};
+}
+
 Point3 on_robot(const OverlayRobot& robot, Point own) {
-  const double c = std::cos(robot.pose.theta);
-  const double s = std::sin(robot.pose.theta);
-  return {robot.pose.x + c * own.x - s * own.y, robot.pose.y + s * own.x + c * own.y,
-          robot.height_m};
+  return placed(robot.pose, robot.height_m, own);
 }
 
 cv::Point2d seen_at(const View& view, const Point3& world) {
@@ -154,6 +158,12 @@ void draw_floor(ColorImage& image, const View& view, const Mission& mission,
   for (const Wall& wall : mission.arena.walls)
     corners.push_back(wall.from);
   brush.line(Brush::seen(view, at_height(corners, 0), true), kWhite, 1.5, true);
+  for (const Obstacle& obstacle : mission.arena.obstacles) {
+    std::vector<Point3> around;
+    for (const Point& corner : outline_of(obstacle.outline))
+      around.push_back(placed(obstacle.pose, 0, corner));
+    brush.line(Brush::seen(view, around, true), kWhite, 1.5, true);
+  }
 }
 
 void draw_robots(ColorImage& image, const View& view, const Outline& body,

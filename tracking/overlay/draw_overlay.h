@@ -23,10 +23,10 @@ struct OverlayWords {
   std::vector<std::string> warnings;
 };
 
-/// Draw walls, patches and tiles on the floor as the camera sees them, including the distortion of
-/// the lens; robots at the height of their tags, with a cross at their centre on the floor, which
-/// is the position used by scores; trails on the floor; tags where they were found. A robot whose
-/// pose was not measured at this time is drawn hollow.
+/// Draw walls, obstacles, patches and tiles on the floor as the camera sees them, including the
+/// distortion of the lens; robots at the height of their tags, with a cross at their centre on the
+/// floor, which is the position used by scores; trails on the floor; tags where they were found. A
+/// robot whose pose was not measured at this time is drawn hollow.
 void draw_floor(ColorImage& image, const View& view, const Mission& mission,
                 const std::vector<double>& tile_ages_s);
 void draw_robots(ColorImage& image, const View& view, const Outline& body,

@@ -158,6 +158,20 @@ TEST(DrawOverlayTest, WallsLieWhereTheLensSeesThem) {
   EXPECT_FALSE(is_changed(image, image_of(view, Point3{0.9, 0, 0})));
 }
 
+TEST(DrawOverlayTest, ObstaclesAreOutlinedWhereTheyStand) {
+  Mission mission = mission_named("aggregation");
+  mission.arena.obstacles = {{BoxOutline{0.4, 0.2}, {0.2, -0.5, 0.5}}};
+  const View view = view_from_above();
+  ColorImage image = grey_picture();
+  draw_floor(image, view, mission, {});
+  // The middles of the front and of the left side, and the centre, where nothing is drawn.
+  const double c = std::cos(0.5);
+  const double s = std::sin(0.5);
+  EXPECT_GT(brightest(image, image_of(view, Point3{0.2 + 0.2 * c, -0.5 + 0.2 * s, 0})), 180);
+  EXPECT_GT(brightest(image, image_of(view, Point3{0.2 - 0.1 * s, -0.5 + 0.1 * c, 0})), 180);
+  EXPECT_FALSE(is_changed(image, image_of(view, Point3{0.2, -0.5, 0})));
+}
+
 TEST(DrawOverlayTest, ARobotWithoutMeasurementsIsHollow) {
   const View view = view_from_above();
   OverlayRobot robot;
