@@ -63,7 +63,8 @@ struct Limit {
   int which;
   int value;
 };
-constexpr std::array<Limit, 4> kLimits{{{SQLITE_LIMIT_SQL_LENGTH, 1 << 20},
+constexpr int kMostSqlBytes = 1 << 20;
+constexpr std::array<Limit, 4> kLimits{{{SQLITE_LIMIT_SQL_LENGTH, kMostSqlBytes},
                                         {SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 1000},
                                         {SQLITE_LIMIT_ATTACHED, 0},
                                         {SQLITE_LIMIT_WORKER_THREADS, 0}}};
@@ -184,7 +185,8 @@ Unexpected refused(const sqlite::Connection& connection, int code, const std::st
                                    limits.memory >> 20U),
                        sql);
     case SQLITE_TOOBIG:
-      if (sql.size() >= (1U << 20U)) return bad_input("the query is longer than 1 MB");
+      if (sql.size() > std::size_t{kMostSqlBytes})
+        return bad_input("the query is longer than 1 MB");
       return bad_input(fmt::format("a value in the query is longer than {} MB, the limit",
                                    kMostValueBytes >> 20U),
                        sql);
