@@ -46,21 +46,22 @@ std::vector<ToRobot> driver_messages(const SensorTopics& sensors, SimulatedSense
   std::vector<ToRobot> messages;
   if (sensors.ranges) {
     const ProximityReadings ranges = senses.proximity();
-    messages.push_back(RangesMessage{arrival, {ranges.begin(), ranges.end()}});
+    messages.emplace_back(RangesMessage{arrival, {ranges.begin(), ranges.end()}});
   }
   if (sensors.ground_color) {
     const auto [r, g, b] = channels_of(senses.ground_color());
-    messages.push_back(GroundColorMessage{arrival, r, g, b});
+    messages.emplace_back(GroundColorMessage{arrival, r, g, b});
   }
   if (sensors.scan) {
     constexpr double kIncrement_rad = 2 * kPi / kLidarRays;
-    messages.push_back(ScanMessage{arrival, 0, kIncrement_rad * (kLidarRays - 1), kIncrement_rad,
-                                   kLeastScan_m, kMostScan_m, senses.read(Sensor::Lidar).lidar_m});
+    messages.emplace_back(ScanMessage{arrival, 0, kIncrement_rad * (kLidarRays - 1), kIncrement_rad,
+                                      kLeastScan_m, kMostScan_m,
+                                      senses.read(Sensor::Lidar).lidar_m});
   }
-  if (sensors.neighbours) messages.push_back(NeighboursMessage{arrival, seen_robots(senses)});
+  if (sensors.neighbours) messages.emplace_back(NeighboursMessage{arrival, seen_robots(senses)});
   if (sensors.light) {
     const LightReadings lux = senses.light();
-    messages.push_back(LightMessage{arrival, {lux.begin(), lux.end()}});
+    messages.emplace_back(LightMessage{arrival, {lux.begin(), lux.end()}});
   }
   return messages;
 }
