@@ -21,8 +21,8 @@ MESSAGES_A_RESULT = 200
 
 
 class Hostile(FaultTest):
-    budget = 60000 if LONG else 3000
-    messages = 12000 if LONG else 1000
+    budget = 20000 if LONG else 3000
+    messages = 5000 if LONG else 1000
     connections = 200 if LONG else 30
     per_second = 2500 if LONG else 1500
 

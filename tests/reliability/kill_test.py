@@ -14,9 +14,9 @@ PRELOAD = str(BIN / "faulty_calls.so")
 
 
 class Kill(Beside):
-    budget = 20000 if LONG else 2000
+    budget = 8000 if LONG else 2000
     designs = 2
-    kills = 60 if LONG else 8
+    kills = 24 if LONG else 8
 
     def setUp(self):
         super().setUp()
@@ -138,9 +138,9 @@ class KillBeside(Beside):
     """Coordinator and workers are killed again and again while people look at the store, and tell it
     to pause and to go on: whatever was acknowledged or confirmed is there after each kill."""
 
-    budget = 60000 if LONG else 2000
+    budget = 16000 if LONG else 2000
     designs = 2
-    kills = 200 if LONG else 8
+    kills = 50 if LONG else 8
 
     def setUp(self):
         super().setUp()

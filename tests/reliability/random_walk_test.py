@@ -1,6 +1,6 @@
 """Random walks over ordinary acts on one campaign: whatever happens, the end is the right answer, or a refusal in words.
 
-SWARMSMITH_WALK_SECONDS: how long (default 600 in the long tests; the ordinary ones do a fixed number of walks).
+SWARMSMITH_WALK_SECONDS: how long (default 180 in the long tests; the ordinary ones do a fixed number of walks).
 SWARMSMITH_WALK_SEED: of the first walk; the others count on. Each walk prints its seed and its acts when it ends badly.
 """
 import os
@@ -15,7 +15,7 @@ from ordinary_acts import HARMFUL, HARMLESS, Life, NotHere, mend
 from rig import LONG, SWARMSMITH, WORKER, FaultTest
 
 SEED = int(os.environ.get("SWARMSMITH_WALK_SEED", "1"))
-SECONDS = float(os.environ.get("SWARMSMITH_WALK_SECONDS", "600" if LONG else "0"))
+SECONDS = float(os.environ.get("SWARMSMITH_WALK_SECONDS", "180" if LONG else "0"))
 MOST_ACTS = 8
 
 
