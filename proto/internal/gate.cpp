@@ -7,6 +7,7 @@
 #include <array>
 #include <fstream>
 #include <functional>
+#include <unordered_set>
 #include <utility>
 
 #include "base/peer_user.h"
@@ -261,6 +262,17 @@ Gate::Taken Gate::meter_of(const Connection& connection) {
   return taken;
 }
 
+/// Of connections that ended before the gate saw them open, so that `forget` could not find them.
+void Gate::drop_lost_meters() {
+  std::unordered_set<ino_t> open;
+  for (const auto& [descriptor, connection] : open_)
+    open.insert(connection.connection.inode);
+  const std::scoped_lock lock(mutex_);
+  std::erase_if(meters_, [&](const auto& meter) {
+    return meter.second.use_count() == 1 && !open.contains(meter.first);
+  });
+}
+
 void Gate::weigh(TimePoint now) {
   const std::size_t resident = resident_bytes();
   if (resident < resident_ + kGrowth && now - weighed_ < kWeighAgain) return;
@@ -273,6 +285,7 @@ void Gate::weigh(TimePoint now) {
 /// message of two bytes takes 64 bytes there, so there is one limit for the waiting bytes, and one
 /// for memory.
 void Gate::weigh_all(std::size_t resident) {
+  drop_lost_meters();
   std::vector<std::pair<std::uint64_t, Open*>> waiting;
   std::unordered_map<std::string, std::uint64_t> of_host;
   std::uint64_t of_all = 0;

@@ -71,6 +71,7 @@ class Gate {
   void hear_event(TimePoint now);
   void let_in(int descriptor, TimePoint now);
   void forget(int descriptor);
+  void drop_lost_meters();
   void weigh(TimePoint now);
   void weigh_all(std::size_t resident);
   void grow_old(TimePoint now);
@@ -79,7 +80,7 @@ class Gate {
   mutable std::mutex mutex_;
   std::unordered_map<std::string, ListedClient> clients_;  ///< by public key
   Refusals refusals_;
-  std::unordered_map<ino_t, Taken> meters_;  ///< of open connections
+  std::unordered_map<ino_t, Taken> meters_;  ///< of connections, by inode
 
   zmq::socket_t* server_;
   Wakeup stop_;

@@ -283,6 +283,23 @@ TEST(Gate, ForgetsTheCountOfAClosedConnection) {
   EXPECT_TRUE(eventually([&] { return gate.meter_of(connection)->load() == 0; }));
 }
 
+/// A connection may end before the gate sees its begin, when its first message was received
+/// already.
+TEST(Gate, ForgetsTheCountOfAConnectionThatItNeverSawOpen) {
+  zmq::context_t context;
+  zmq::socket_t server(context, zmq::socket_type::router);
+  Gate gate(context, server, {}, {});
+  server.bind("tcp://127.0.0.1:*");
+  const Connection never_seen{1000, 1};
+  const Connection in_use{1001, 2};
+  *gate.meter_of(never_seen) = 7;
+  const Gate::Taken used = gate.meter_of(in_use);
+  *used = 7;
+  const RawPeer other(server.get(zmq::sockopt::last_endpoint));
+  EXPECT_TRUE(eventually([&] { return gate.meter_of(never_seen)->load() == 0; }));
+  EXPECT_EQ(gate.meter_of(in_use), used);
+}
+
 TEST(Network, OfAnAddress) {
   EXPECT_EQ(network_of("127.0.0.1"), network_of("::1"));
   EXPECT_EQ(network_of("::ffff:10.0.0.5"), "10.0.0.5");
