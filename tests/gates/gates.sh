@@ -34,7 +34,7 @@ packages_for() {
   esac
 }
 
-fuzz_seconds=${SWARMSMITH_FUZZ_SECONDS:-60}
+fuzz_seconds=${SWARMSMITH_FUZZ_SECONDS:-20}
 
 # The digest of all files, including those that are not in any commit yet.
 tree_digest() {
