@@ -137,8 +137,8 @@ void Race::take_in(std::span<const Measurement> measurements, std::size_t& at) {
   // Every configuration that was alive then was asked for. Those rejected since then are left out
   // on both sides.
   SWARMSMITH_ASSERT(answered == open_->due, "every due run was asked for");
-  // Runs are reported before rejections are: the run of a rejected configuration counts (irace
-  // facts, 12).
+  // The runs are reported before rejections are looked at: the run of a rejected configuration
+  // counts (irace facts, 12).
   if (!open_->evaluates) {
     std::vector<std::size_t>& ran = open_->ran;
     for (const std::size_t c : answered)
