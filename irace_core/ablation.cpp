@@ -98,7 +98,10 @@ class Ablation final : public Search {
       : space_(std::move(space)),
         scenario_(scenario),
         target_(std::move(target)),
+        // A stream of its own, so the pairs are others than those of a race with the same seed.
         pairs_(one_by_one(scenario), Rng(scenario.seed).split("ablation")),
+        // The source, and at most one step for each differing parameter. The last of them makes the
+        // target.
         planned_(static_cast<std::int64_t>(differences(source, target_).size()) + 1) {
     pairs_.extend_to(scenario.ablation_pairs);
     begin({source});

@@ -200,6 +200,7 @@ class Annealing final : public Strategy {
                        .budget = std::min(kAnnealingBlock * most_runs(), budget_ - used_)};
     }
     candidate_ = {.id = next_id, .configuration = *perturbed, .costs = {}};
+    // The parent is the incumbent, so the parents show which candidates were accepted.
     round.newcomers.push_back({std::move(*perturbed), incumbent_.id});
 
     window_begin_ += options_.moved;

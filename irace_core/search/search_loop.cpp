@@ -64,6 +64,7 @@ Expected<void> SearchLoop::ask() {
                        .seed = instances_[pair].seed});
     alive.insert(id);
   }
+  // Until the costs arrive, all configurations of the round are alive.
   alive_.assign(alive.begin(), alive.end());
   return {};
 }
