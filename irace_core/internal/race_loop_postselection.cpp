@@ -26,8 +26,8 @@ std::vector<std::int64_t> IteratedRace::State::preferred() const {
   return ids;
 }
 
-/// irace facts, 14 (irace 4): what remains of the budget after the last iteration would be lost. It
-/// is spent on a race among the best configurations of all iterations.
+/// irace facts, 14 (irace 4): the budget that remains after the last iteration would be lost. It is
+/// spent on a race among the elites of all iterations and, if there is room, other configurations.
 bool IteratedRace::State::begin_postselection() {
   if (!scenario.postselection || !scenario.elitist || time) return false;
   const std::int64_t left = remaining();
