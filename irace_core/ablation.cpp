@@ -20,9 +20,13 @@ namespace {
 /// Sets one parameter to its value in `target`; nothing when the values do not fit together.
 std::optional<AblationChange> change(const ParameterSpace& space, const Configuration& current,
                                      const Configuration& target, std::size_t parameter) {
+  // A parameter that is inactive in one of the two has no value to change: it follows the
+  // parameters that its condition mentions.
   if (!current.is_active(parameter) || !target.is_active(parameter)) return std::nullopt;
   AblationChange made{Configuration(), {parameter}};
   Assignment values(space);
+  // In hierarchy order, so that the parameters that a condition mentions have their new values
+  // already (irace facts, 8.1).
   for (const std::size_t i : space.hierarchy_order()) {
     const bool was_active = current.is_active(i);
     const bool is_active = space.is_active(i, values);
@@ -34,6 +38,8 @@ std::optional<AblationChange> change(const ParameterSpace& space, const Configur
     if (i != parameter && is_active != was_active) made.changed.push_back(i);
   }
   made.configuration = values.configuration();
+  // A dependent domain may exclude a value that is kept, and a forbidden clause may exclude the
+  // combination.
   if (!space.check(made.configuration) || space.is_forbidden(made.configuration)) {
     return std::nullopt;
   }
@@ -68,6 +74,7 @@ std::vector<AblationChange> ablation_changes(const ParameterSpace& space,
 std::vector<std::size_t> change_between(const ParameterSpace& space, const Configuration& before,
                                         const Configuration& after, const Configuration& target) {
   const auto open = differences(before, target);
+  // The last step may change all remaining parameters at once (see Ablation::go_on).
   if (after == target) return open;
   for (AblationChange& made : ablation_changes(space, before, target, open)) {
     if (made.configuration == after) return std::move(made.changed);
@@ -91,7 +98,10 @@ class Ablation final : public Search {
       : space_(std::move(space)),
         scenario_(scenario),
         target_(std::move(target)),
+        // A stream of its own, so the pairs are others than those of a race with the same seed.
         pairs_(one_by_one(scenario), Rng(scenario.seed).split("ablation")),
+        // The source, and at most one step for each differing parameter. The last of them makes the
+        // target.
         planned_(static_cast<std::int64_t>(differences(source, target_).size()) + 1) {
     pairs_.extend_to(scenario.ablation_pairs);
     begin({source});
@@ -187,6 +197,8 @@ void Ablation::begin(std::vector<Configuration> configurations) {
       .new_pairs = iteration_ == 1 ? scenario_.ablation_pairs : 0,
       .elites = path_.empty() ? std::vector<std::int64_t>() : std::vector{parent}});
   std::vector<irace::Contestant> contestants;
+  // Each race begins without results: the changes of a step are new configurations, and the one
+  // from which they are made does not run again.
   for (Configuration& configuration : configurations) {
     const auto id = static_cast<std::int64_t>(members_.size()) + 1;
     events_.emplace_back(ConfigurationSampled{id, parent, iteration_, configuration});
@@ -200,15 +212,19 @@ void Ablation::begin(std::vector<Configuration> configurations) {
 }
 
 irace::RaceSettings Ablation::settings(std::int64_t count) const {
+  // A single configuration has no rival, so the source and the target run on all pairs.
   const bool races = scenario_.ablation == AblationType::Racing && count > 1;
   const std::int64_t pairs = scenario_.ablation_pairs;
   irace::RaceSettings settings{
       .elitist = false,
       .test_type = test_type_of(scenario_),
+      // With `Full` no test comes before the last pair, and best() ignores what the last test
+      // drops.
       .first_test = races ? scenario_.first_test * scenario_.block_size : pairs,
       .pairs_between_tests = scenario_.each_test * scenario_.block_size,
       .block_size = scenario_.block_size,
       .confidence = scenario_.confidence,
+      // 1 would stop a race of one configuration before its first run (irace facts, 9.3.2 a).
       .min_survival = races ? 1 : 0,
       .max_experiments = count * pairs,
       .target_evaluator = scenario_.target_evaluator,
@@ -241,6 +257,7 @@ void Ablation::tell(std::span<const Measurement> measurements) {
     throw std::invalid_argument("an ablation must get a cost for each run that it wants");
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     const Experiment& run = wanted_[i];
+    // With a targetEvaluator the cost of a run is not known before its call (irace facts, 18.4).
     if (run.is_evaluation != scenario_.target_evaluator) continue;
     if (std::isnan(measurements[i].cost)) throw std::invalid_argument("a cost is not a number");
     member(run.configuration).costs[static_cast<std::size_t>(run.pair - 1)] = measurements[i].cost;
@@ -274,6 +291,8 @@ void Ablation::end_iteration() {
     failure_ = race_->failure();
     return finish(failure_->message);
   }
+  // If all changes of a step are rejected, the path has no next configuration. Source and target
+  // stay on the path, since the user asked for them.
   const auto found = best();
   if (!found && is_step()) {
     failure_ =
@@ -284,6 +303,8 @@ void Ablation::end_iteration() {
   path_.push_back(found.value_or(static_cast<std::int64_t>(members_.size())));
   const bool is_over = path_.size() > 1 && configuration(path_.back()) == target_;
   elites_ = {elite(path_.back(), 1)};
+  // The configurations of the path were run in different races, but on the same pairs, so overall
+  // ranks can compare them (irace facts, 11).
   if (is_over) {
     elites_.clear();
     const std::vector<double> overall = ranks(path_);
@@ -331,6 +352,8 @@ void Ablation::go_on() {
   const Configuration& current = configuration(path_.back());
   const auto open = differences(current, target_);
   auto changes = ablation_changes(space_, current, target_, open);
+  // The target is next if it is one change away, or if no single change is possible: then all
+  // remaining parameters change together.
   if (open.size() < 2 || changes.empty() || changes.front().configuration == target_)
     return begin({target_});
   std::vector<Configuration> next;

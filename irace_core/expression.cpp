@@ -12,6 +12,8 @@ namespace swarmsmith {
 
 Scalar Scalar::integer(double value) {
   if (!std::isfinite(value)) return missing_of(Type::Integer);
+  // R's integers have 32 bits, but a parameter of a space may have larger whole numbers. These
+  // become reals, as all parameter values are in irace.
   if (std::fabs(value) > irace::kLargestInteger) return real(value);
   return {Type::Integer, false, value + 0.0, {}};  // R's integers have no negative zero
 }
@@ -100,6 +102,7 @@ Expression Expression::call(Operation operation, std::vector<Expression> operand
   }
   Expression expression;
   expression.operation_ = operation;
+  // Elements of one type need no coercion, so evaluation can use the list as it is.
   expression.is_list_of_constants_ =
       operation == Operation::Combine &&
       std::all_of(operands.begin(), operands.end(), [&](const Expression& operand) {
@@ -144,12 +147,15 @@ Expected<void> Expression::bind(std::span<const std::string> names) {
   return {};
 }
 
+/// irace facts, 8.2: FALSE and NA make a parameter inactive. So does a value that is no single
+/// logical.
 bool Expression::is_true(std::span<const Scalar> parameters) const {
   const Values values = evaluate(parameters);
   return values.size() == 1 && values[0].type == Scalar::Type::Logical && !values[0].missing &&
          values[0].number != 0;
 }
 
+/// A text is not converted: that is the task of as.numeric.
 std::optional<double> Expression::to_number(std::span<const Scalar> parameters) const {
   const Values values = evaluate(parameters);
   if (values.size() != 1 || values[0].missing || values[0].type == Scalar::Type::Text) return {};

@@ -18,6 +18,7 @@ Expected<void> check_initial(const ParameterSpace& space,
       const std::string where = checked.error().where;
       return bad_input(checked.error().message, where.empty() ? number : number + ", " + where);
     }
+    // irace facts, 23.4: a row that occurs twice is an error.
     for (std::size_t j = 0; j < i; ++j) {
       if (initial[i] == initial[j]) {
         return bad_input("is the same as number " + std::to_string(j + 1), number);
@@ -64,6 +65,8 @@ void IteratedRace::tell(std::span<const Measurement> measurements) {
                                 std::to_string(state_->wanted.size()) + " wanted experiments");
   }
   for (const Measurement& measurement : measurements) {
+    // A race could not rank it, and marks missing results by NaN. A target that prints NaN is an
+    // error (irace facts, 12), not a rejection.
     if (std::isnan(measurement.cost)) throw std::invalid_argument("a cost is not a number");
   }
   state_->tell(measurements);
@@ -72,6 +75,7 @@ void IteratedRace::tell(std::span<const Measurement> measurements) {
 void IteratedRace::tell(std::span<const double> costs) {
   std::vector<Measurement> measurements;
   for (const double cost : costs)
+    // A time of 0 means that it is unknown.
     measurements.push_back({cost, 0});
   tell(measurements);
 }

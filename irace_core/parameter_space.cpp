@@ -28,6 +28,8 @@ Expected<std::vector<int>> find_levels(const std::vector<std::vector<std::size_t
                                        std::span<const std::string> names) {
   const std::size_t n = depends_on.size();
   std::vector<int> levels(n, 1);
+  // irace facts, 8.1: one level above the highest parameter that is mentioned. A chain has at most
+  // n parameters, so only a cycle changes a level in each of n + 1 rounds.
   for (std::size_t round = 0; round <= n; ++round) {
     bool changed = false;
     for (std::size_t i = 0; i < n; ++i) {
@@ -74,6 +76,7 @@ bool has_list(const Expression& expression) {
   const bool searched =
       expression.operation() == Operation::In && operands[1].operation() == Operation::Range;
   if (expression.operation() == Operation::Range) return true;
+  // `x %in% a:b` needs no list (see kLongestRange).
   if (searched) return has_list(operands[0]);
   return std::any_of(operands.begin(), operands.end(), has_list);
 }
@@ -98,6 +101,8 @@ Expected<ParameterSpace> ParameterSpace::make(std::vector<Parameter> parameters,
     }
     if (auto checked = irace::check_parameter(parameter, digits); !checked) {
       Error error = checked.error();
+      // One error gives the digits that all bounds need: otherwise the user would repeat this for
+      // each bound.
       const std::string all =
           "digits = " + std::to_string(irace::digits_needed(parameters, digits));
       const bool is_of_digits = error.message.find("it needs digits") != std::string::npos;
@@ -111,6 +116,7 @@ Expected<ParameterSpace> ParameterSpace::make(std::vector<Parameter> parameters,
     for (const std::string& value : irace::choice_values(parameter.domain)) {
       choices.push_back(Scalar::of_text(value));
     }
+    // irace facts, 1: parameters with one value do not count in d.
     if (choices.size() != 1) ++space.variable_count_;
   }
   if (space.variable_count_ == 0)
@@ -125,6 +131,7 @@ Expected<ParameterSpace> ParameterSpace::make(std::vector<Parameter> parameters,
   space.levels_ = std::move(*levels);
   space.order_.resize(parameters.size());
   std::iota(space.order_.begin(), space.order_.end(), std::size_t{0});
+  // irace facts, 8.1: sampling follows the levels, and within a level the order of declaration.
   std::stable_sort(space.order_.begin(), space.order_.end(), [&](std::size_t a, std::size_t b) {
     return space.levels_[a] < space.levels_[b];
   });
@@ -159,6 +166,7 @@ void ParameterSpace::mark_as_read(const Expression& expression) {
 
 std::optional<ParameterSpace::ConditionTable> ParameterSpace::tabulate(
     const Expression& condition) const {
+  // A limit for the size of tables. Conditions on wider domains are evaluated each time.
   constexpr double kMostValues = 1000;
   const std::vector<std::string> names = condition.names();
   if (names.size() != 1 || has_list(condition)) return std::nullopt;
@@ -195,6 +203,8 @@ std::size_t ParameterSpace::value_count(std::size_t index) const {
 
 Scalar ParameterSpace::scalar(std::size_t index, double value) const {
   if (!choices_[index].empty()) {
+    // irace facts, 8.2: conditions see values of categorical and ordinal parameters as texts, and
+    // NA where a parameter is inactive.
     if (value != value) return Scalar::missing_of(Scalar::Type::Text);
     return choices_[index][static_cast<std::size_t>(value)];
   }
@@ -222,12 +232,14 @@ Expected<std::optional<Interval>> ParameterSpace::interval(std::size_t index,
     };
     const std::optional<double> lower = number(domain.lower);
     const std::optional<double> upper = number(domain.upper);
+    // irace facts, 8.3: a bound that is NA makes the parameter NA.
     if (!lower || !upper) return std::nullopt;
     return Interval{*lower, *upper};
   };
   std::optional<Interval> found;
   if (const auto* whole = std::get_if<Integer>(&parameters_[index].domain)) {
     found = evaluate(*whole);
+    // irace facts, 8.3: computed bounds of integers are truncated towards zero.
     if (found) found = Interval{std::trunc(found->lower), std::trunc(found->upper)};
     for (const double bound : {found ? found->lower : 0, found ? found->upper : 0}) {
       if (auto fits = irace::check_whole(bound, parameters_[index].name); !fits)
@@ -236,6 +248,7 @@ Expected<std::optional<Interval>> ParameterSpace::interval(std::size_t index,
   } else {
     found = evaluate(std::get<Real>(parameters_[index].domain));
   }
+  // irace facts, 8.3: equal bounds are allowed, an empty domain is an error.
   if (found && found->lower > found->upper) {
     return bad_input("the domain (" + exact_text(found->lower) + ", " + exact_text(found->upper) +
                          ") is empty here: keep the bounds apart, as by min() and max()",
@@ -244,6 +257,7 @@ Expected<std::optional<Interval>> ParameterSpace::interval(std::size_t index,
   return found;
 }
 
+/// irace facts, 8.4: a clause forbids only if it is TRUE, not if it is NA.
 bool ParameterSpace::is_forbidden(const Configuration& configuration) const {
   if (forbidden_.empty()) return false;
   const Assignment values(*this, configuration);
@@ -257,6 +271,7 @@ Expected<void> ParameterSpace::check(const Configuration& configuration) const {
                      ", the space " + counted(size(), "parameter"));
   }
   Assignment values(*this);
+  // In hierarchy order: conditions and domains then see only values that were checked.
   for (const std::size_t i : order_) {
     const std::string& name = parameters_[i].name;
     auto domain = Expected<std::optional<Interval>>(std::nullopt);
@@ -294,6 +309,7 @@ Assignment::Assignment(const ParameterSpace& space, const Configuration& configu
 
 void Assignment::set(std::size_t parameter, double value) {
   configuration_.set(parameter, value);
+  // Tabulated conditions read the configuration, so that the other values need no conversion.
   if (space_->is_read_[parameter]) scalars_[parameter] = space_->scalar(parameter, value);
 }
 

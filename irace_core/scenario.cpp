@@ -23,6 +23,7 @@ constexpr double kMany = 1e6;         // for numbers that are multiplied with ea
 Expected<void> check_ranges(std::span<const Range> ranges) {
   for (const Range& range : ranges) {
     if (range.value >= range.least && range.value <= range.most) continue;
+    // The negated comparison is also true for NaN.
     const bool too_little = !(range.value >= range.least);
     return bad_input("must be " + exact_text(too_little ? range.least : range.most) +
                          (too_little ? " or more" : " or less") + ", and is " +
@@ -65,6 +66,7 @@ Expected<void> check_budget(const Scenario& s) {
   if (!counts && s.max_time == 0) {
     return bad_input("must be 1 or more (or give max_time), and is 0", "max_experiments");
   }
+  // irace facts, 16: exactly one of the two budgets, and a time needs elitism.
   if (s.max_time == 0) return {};
   if (counts) {
     return bad_input(
@@ -81,6 +83,7 @@ Expected<void> check_budget(const Scenario& s) {
 }
 
 Expected<void> check_blocks(const Scenario& s) {
+  // irace facts, 22.
   if (s.first_test % s.each_test != 0) {
     return bad_input("must be a multiple of each_test, which is " + std::to_string(s.each_test) +
                          ", and is " + std::to_string(s.first_test),
@@ -91,12 +94,15 @@ Expected<void> check_blocks(const Scenario& s) {
                          std::to_string(s.n_instances) + ", and is " + std::to_string(s.block_size),
                      "block_size");
   }
+  // A smaller mu is raised to T_f (irace facts, 3.1), which consists of whole blocks.
   const std::int64_t pairs = s.first_test * s.block_size;
   if (s.mu > pairs && s.mu % s.block_size != 0) {
     return bad_input("must be a multiple of block_size, which is " + std::to_string(s.block_size) +
                          ", and is " + std::to_string(s.mu),
                      "mu");
   }
+  // irace facts, 4: nothing is appended to the list of a deterministic target, so the first test
+  // would never come.
   if (s.deterministic && pairs > s.n_instances) {
     return bad_input("uses each instance once, so that a first test after " +
                          std::to_string(pairs) + " needs as many instances; there are " +
@@ -117,6 +123,8 @@ Expected<void> check(const Scenario& scenario) {
     return bad_input("must lie between 0 and 1, and is " + exact_text(scenario.confidence),
                      "confidence");
   }
+  // irace facts, 22. Only a demand for capping is an error: its default depends on the same
+  // conditions (see uses_capping()).
   if (scenario.capping.value_or(false)) {
     if (!scenario.elitist) return bad_input("needs elitist to be on", "capping");
     if (scenario.bound_max == 0) {
@@ -126,6 +134,7 @@ Expected<void> check(const Scenario& scenario) {
   return {};
 }
 
+/// irace facts, 17: the default. An explicit choice has priority.
 bool uses_capping(const Scenario& scenario) {
   return scenario.capping.value_or(scenario.elitist && scenario.max_time > 0 &&
                                    scenario.bound_max > 0);
@@ -133,6 +142,7 @@ bool uses_capping(const Scenario& scenario) {
 
 double capped_cost(const Scenario& scenario, double bound_max, double cost, double time,
                    double bound) {
+  // Races raise times in the same way before they look at bounds (irace facts, 18.2).
   return irace::capped_cost(cost, std::max(time, scenario.min_measurable_time), bound,
                             {.bound_max = bound_max,
                              .bound_digits = scenario.bound_digits,
@@ -141,6 +151,7 @@ double capped_cost(const Scenario& scenario, double bound_max, double cost, doub
                              .min_measurable_time = scenario.min_measurable_time});
 }
 
+/// irace facts, 10: with capping the default is the t-test.
 TestType test_type_of(const Scenario& scenario) {
   return scenario.test_type.value_or(uses_capping(scenario) ? TestType::TTest : TestType::FTest);
 }

@@ -9,6 +9,8 @@
 namespace swarmsmith::irace {
 namespace {
 
+/// irace facts, 23.2: letters, digits, `_` and `.`. Bytes of 0x80 and above are parts of characters
+/// in UTF-8.
 bool is_name(std::string_view name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -59,6 +61,7 @@ Expected<void> bind_bound(Bound& bound, const std::string& owner,
   if (!only_arithmetic(*expression, mentioned.empty())) {
     return bad_input("a bound may use + - * / %% min max round floor ceiling trunc", owner);
   }
+  // irace facts, 23.2: a constant bound is computed once, when the space is made.
   if (mentioned.empty()) {
     const std::optional<double> value = expression->to_number({});
     if (!value) return bad_input("a bound is not a number", owner);
@@ -67,6 +70,8 @@ Expected<void> bind_bound(Bound& bound, const std::string& owner,
   }
   for (const std::string& name : mentioned) {
     const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    // irace facts, 8.3: the values of categorical and ordinal parameters are texts, with which a
+    // bound cannot compute.
     if (!is_numeric_domain(all[static_cast<std::size_t>(at)].domain)) {
       return bad_input("a bound depends on '" + name + "', which is not numeric", owner);
     }
@@ -89,17 +94,20 @@ Expected<void> check_choices(const std::vector<std::string>& values, const std::
 Expected<void> check_increasing(const std::vector<std::string>& values, const std::string& name) {
   std::vector<double> numbers;
   for (const std::string& value : values) {
+    // R's as.numeric decides whether a value is a number. If one is not, any order is allowed.
     const std::optional<double> number =
         Expression::call(Operation::AsNumeric, {Expression::text(value)}).to_number({});
     if (!number) return {};
     numbers.push_back(*number);
   }
+  // Equal numbers are allowed: "1" and "1.0" are different values.
   if (std::is_sorted(numbers.begin(), numbers.end())) return {};
   return bad_input("the values of an ordinal parameter must increase", name);
 }
 
 Expected<void> check_decimals(double bound, int digits, const std::string& name) {
   if (fits_digits(bound, digits)) return {};
+  // The error gives the number of digits that is enough (irace facts, 23.2); 15 always are.
   int needed = digits;
   while (!fits_digits(bound, needed))
     ++needed;
@@ -113,6 +121,7 @@ Expected<void> check_numeric(const Numeric& domain, bool whole, int digits,
                              const std::string& name) {
   const double* lower = std::get_if<double>(&domain.lower);
   const double* upper = std::get_if<double>(&domain.upper);
+  // irace facts, 8.3.
   if (domain.log && (lower == nullptr || upper == nullptr)) {
     return bad_input("a logarithmic domain must not depend on other parameters", name);
   }
@@ -126,6 +135,8 @@ Expected<void> check_numeric(const Numeric& domain, bool whole, int digits,
     const auto checked = whole ? check_whole(*bound, name) : check_decimals(*bound, digits, name);
     if (!checked) return checked;
   }
+  // irace facts, 23.2: for a fixed value one uses a categorical parameter. A dependent domain may
+  // have equal bounds (8.3).
   if (lower != nullptr && upper != nullptr && *lower >= *upper) {
     return bad_input("the lower bound must be below the upper one", name);
   }
@@ -160,6 +171,7 @@ bool fits_digits(double bound, int digits) {
   double smallest = 1;
   for (int i = 0; i < digits; ++i)
     smallest /= 10;
+  // The two conditions of irace facts, 23.2. The factor allows for the rounding of `smallest`.
   if (std::fabs(bound) < smallest * (1 - 1e-9)) return false;
   const double tolerance = 1.5e-8 * std::max(1.0, std::fabs(bound));
   return std::fabs(round_to_digits(bound, digits) - bound) <= tolerance;
@@ -198,6 +210,7 @@ std::optional<Interval> constant_interval(const Domain& domain) {
 Expected<void> bind_parameter(Parameter& parameter, std::span<const std::string> names,
                               std::span<const Parameter> all) {
   if (parameter.condition) {
+    // irace facts, 8.1: an unknown name is an error.
     if (auto bound = parameter.condition->bind(names); !bound) {
       return bad_input(bound.error().message, parameter.name);
     }

@@ -34,13 +34,17 @@ std::string pack(const Configuration& configuration) {
       continue;
     }
     const double value = configuration[i++];
+    // Most values are indices of choices and small integers, which need one byte.
     if (is_small(value)) {
       packed += static_cast<char>(static_cast<unsigned char>(value));
       continue;
     }
     packed += static_cast<char>(kOther);
+    // All bits of the value. The packed form never leaves the process, so the byte order does not
+    // matter.
     packed.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
+  // A string that grew may have reserved more memory than it needs.
   packed.shrink_to_fit();
   return packed;
 }
@@ -80,6 +84,7 @@ const Configuration& KeptConfiguration::get() const {
   if (packed_.empty()) return configuration_;
   configuration_ = Configuration(size_of(packed_));
   unpack(packed_, configuration_);
+  // It stays unpacked, so that a reference to it is valid until the next put_away().
   packed_ = {};
   return configuration_;
 }

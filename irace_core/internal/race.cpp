@@ -11,6 +11,7 @@
 namespace swarmsmith::irace {
 namespace {
 
+// A cost is never NaN (tell() of a search refuses it), so NaN marks a missing result.
 constexpr double kNoResult = std::numeric_limits<double>::quiet_NaN();
 
 void put(std::vector<double>& row, std::size_t task, double value) {
@@ -28,6 +29,7 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
       rejected_(contestants_.size(), false),
       ranks_(contestants_.size()),
       quality_(contestants_.size()),
+      // Conover's comparison is two-sided (irace facts, 10.1.4).
       quantiles_((1 - settings_.confidence) / 2) {
   SWARMSMITH_ASSERT(!settings_.capping || settings_.bound_max > 0, "capping needs a largest bound");
   SWARMSMITH_ASSERT(settings_.new_pairs >= 0 && settings_.past_pairs >= 0 &&
@@ -47,10 +49,14 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
                       "capping needs the elites' times");
     alive_.push_back(c);
     for (auto [row, known] : {std::pair{&costs_[c], &past}, {&times_[c], &past_times}}) {
+      // New pairs come before past ones (irace facts, 9.1), and no configuration has a result on
+      // them.
       if (known->empty()) continue;
       row->assign(new_pairs, kNoResult);
       row->insert(row->end(), known->begin(), known->end());
     }
+    // irace facts, 9.2: a configuration is protected as long as it has known results on coming
+    // tasks.
     const auto known = std::count_if(past.begin(), past.end(), [](double x) { return x == x; });
     progress_.protection.push_back(known);
     progress_.results.push_back(known);
@@ -82,6 +88,7 @@ void Race::tell(std::span<const Measurement> measurements) {
 /// Rules 9.3.1 and 9.3.2 of irace facts. Rule 9.3.2 is not applied to a task without runs, which
 /// costs nothing.
 bool Race::open_task() {
+  // irace facts, 9.3: the race stops when there is no further pair.
   if (progress_.task == settings_.pairs.size()) {
     stop_ = "no pairs left";
     return false;
@@ -104,7 +111,9 @@ bool Race::open_task() {
                                               [&](auto c) { return progress_.protection[c] > 0; });
     task.later.assign(others, columns.end());
     columns.erase(others, columns.end());
+    // The marker `:` of irace facts, 9.3.
     task.only_elites = !columns.empty() && task.later.empty();
+    // No elite misses this pair, so the others need not wait.
     if (columns.empty()) std::swap(columns, task.later);
   }
   task.due = std::move(columns);
@@ -128,6 +137,8 @@ void Race::take_in(std::span<const Measurement> measurements, std::size_t& at) {
   // Every configuration that was alive then was asked for. Those rejected since then are left out
   // on both sides.
   SWARMSMITH_ASSERT(answered == open_->due, "every due run was asked for");
+  // The runs are reported before rejections are looked at: the run of a rejected configuration
+  // counts (irace facts, 12).
   if (!open_->evaluates) {
     std::vector<std::size_t>& ran = open_->ran;
     for (const std::size_t c : answered)
@@ -145,16 +156,19 @@ void Race::take_run(const RaceRun& run, const Measurement& measurement) {
   const double bound = open_->bounds[c];
   const double least = settings_.min_measurable_time;
   const double time = measurement.time > 0 ? std::max(measurement.time, least) : measurement.time;
+  // A rejection needs no time: no result of that configuration is used (irace facts, 12).
   const bool rejects = !settings_.target_evaluator && std::isinf(measurement.cost);
   if (settings_.capping && !rejects &&
       !(time > 0 && time < std::numeric_limits<double>::infinity())) {
     return fail(run, "reported no time, and capping needs one");
   }
+  // irace facts, 17: this is an error, since a target must stop itself at the bound.
   if (bound > 0 && time > bound + least) {
     return fail(run, "took " + exact_text(time) + ", more than its bound of " + exact_text(bound) +
                          ": a target must stop itself at the bound");
   }
   put(times_[c], run.task, time);
+  // irace facts, 18.4: the cost comes from a later call.
   if (settings_.target_evaluator) return;
   put(costs_[c], run.task,
       settings_.capping ? capped_cost(measurement.cost, time, bound, settings_.time_rules())
@@ -176,11 +190,14 @@ void Race::take_evaluation(std::size_t column, double cost) {
 void Race::go_on() {
   OpenTask& task = *open_;
   task.due.clear();
+  // With capping: the elites have run, and their times give the bounds of the others.
   if (!task.later.empty()) {
     task.due = std::exchange(task.later, {});
     set_bounds();
     return;
   }
+  // irace facts, 18.4: one call for each alive configuration, even for elites that were not run on
+  // this pair. Decision 10: there are no calls for a task without runs.
   if (settings_.target_evaluator && !task.ran.empty() && !task.evaluates) {
     task.evaluates = true;
     task.due = by_id(alive_);
@@ -199,11 +216,14 @@ void Race::close_task() {
   pass(progress_, ran);  // 9.3.4; rejected ones (9.3.5) were removed when their costs arrived
   used_ = progress_.used;
   step.experiments_used = used_;
+  // A race can lose all its configurations only by rejections (irace facts, 12). There is then
+  // nothing to rank or test.
   if (alive_.empty()) {
     stop_ = "all configurations were rejected";
     steps_.push_back(std::move(step));
     return;
   }
+  // Tests and ranks use a row of ranks for each task, over all alive configurations.
   add_ranked_row(progress_.task - 1);
   describe_best(step);  // 9.3.10: before the test
   if (ran.empty()) {
@@ -218,11 +238,13 @@ void Race::close_task() {
   // runs.
   const bool counts = !ran.empty() && !only_elites && !any_protected(progress_) &&
                       step.task > settings_.first_test && is_test_point(progress_.task);
+  // A rejection alone is no drop here (decision 10).
   const bool dropped = step.marker == '-' || step.marker == 'c';
   if (counts) tests_without_drop_ = dropped ? 0 : tests_without_drop_ + 1;
   step.alive_after = static_cast<std::int64_t>(alive_.size());
   SWARMSMITH_ASSERT(step.alive_after <= step.alive_before,
                     "a configuration never returns to a race");
+  // irace facts, 10.4: of the configurations that are still alive. It decides nothing.
   describe_agreement(step);
   step.digest = digest(step);
   steps_.push_back(std::move(step));

@@ -11,10 +11,13 @@
 
 namespace swarmsmith {
 
+/// Starts the estimate of irace facts, 16: some configurations run on the first T_f pairs, and
+/// their mean time converts max_time into a number of experiments.
 Expected<void> IteratedRace::State::begin_estimate() {
   estimate_ =
       Estimate{.tried = {}, .batch = {}, .runs = {}, .pairs = schedule_.pairs_before_test()};
   instances_.extend_to(std::max(estimate_->pairs, scenario.n_instances));
+  // If the first batch could exceed the time of the estimate, its runs get a smaller bound.
   const double bound = time->bound_for_estimate();
   if (bound > 0 && bound_max_ > bound) lower_bound_max(bound);
   auto asked = ask_estimate(time->first_configurations());
@@ -37,6 +40,8 @@ void IteratedRace::State::lower_bound_max(double bound) {
 Expected<bool> IteratedRace::State::ask_estimate(std::int64_t count) {
   auto& batch = estimate_->batch;
   batch.clear();
+  // Given configurations have the smallest ids and are tried first, in their order, so the last
+  // tried id shows where to continue. Then points of the Sobol sequence follow.
   const std::int64_t last = estimate_->tried.empty() ? 0 : estimate_->tried.back();
   for (std::int64_t id = last + 1; id <= initial_count_; ++id) {
     if (static_cast<std::int64_t>(batch.size()) == count) break;
@@ -47,6 +52,7 @@ Expected<bool> IteratedRace::State::ask_estimate(std::int64_t count) {
     if (!sampled) return Unexpected(sampled.error());
     batch.insert(batch.end(), sampled->begin(), sampled->end());
   }
+  // Canonical order: pair by pair, as in a race.
   wanted.clear();
   for (std::int64_t pair = 1; pair <= estimate_->pairs; ++pair) {
     for (const std::int64_t id : batch) {
@@ -79,6 +85,8 @@ void IteratedRace::State::tell_estimate(std::span<const Measurement> measurement
     fail(checked.error());
     return;
   }
+  // irace facts, 18.4: the costs come from a second call for each run, after all runs. `task`
+  // distinguishes it from later calls for the same configuration and pair.
   if (scenario.target_evaluator && estimate_->runs.empty()) {
     estimate_->runs.assign(measurements.begin(), measurements.end());
     for (Experiment& experiment : wanted) {
@@ -100,22 +108,28 @@ Expected<void> IteratedRace::State::end_batch(std::span<const Measurement> costs
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const auto [id, pair] = std::pair(wanted[i].configuration, wanted[i].pair);
     evaluated.emplace_back(id, pair);
+    // Each run counts, also those of a rejected configuration (decision 10): its time is used up.
     time->count(estimate_->runs[i].time);
+    // The costs go into the first race, so they follow the rules of a race (irace facts, 17).
     const double cost =
         uses_capping(scenario)
             ? irace::capped_cost(costs[i].cost, estimate_->runs[i].time, bound_max_, rules)
             : costs[i].cost;
+    // irace facts, 12. A rejected configuration takes no part in the races.
     if (std::isinf(cost) && candidate(id).takes_part) reject(id);
     if (candidate(id).takes_part) candidate(id).know({pair, cost, estimate_->runs[i].time});
     pairs_seen_ = std::max(pairs_seen_, pair);
   }
+  // The estimate is part of the design: its runs count as experiments, and its pairs as steps.
   used_before_race_ += static_cast<std::int64_t>(wanted.size());
   steps_ += estimate_->pairs;
   estimate_->runs.clear();
   estimate_->tried.insert(estimate_->tried.end(), estimate_->batch.begin(), estimate_->batch.end());
+  // The number of experiments that fit in the remaining time, with the new mean time.
   time->estimate();
   report_time(std::move(evaluated));
   const auto tried = static_cast<std::int64_t>(estimate_->tried.size());
+  // Step 3 of irace facts, 16. The estimate also ends if no further configuration can be sampled.
   if (const std::int64_t more = time->more_configurations(tried); more > 0) {
     auto asked = ask_estimate(more);
     if (!asked) return Unexpected(asked.error());
@@ -125,8 +139,11 @@ Expected<void> IteratedRace::State::end_batch(std::span<const Measurement> costs
 }
 
 Expected<void> IteratedRace::State::end_estimate() {
+  // irace facts, 16: a bound above twice the mean time is lowered.
   const double bound = 2 * time->mean_time();
   if (bound_max_ > bound) lower_bound_max(bound);
+  // irace facts, 3.4: a budget of time that is too small for the usual plan gives fewer iterations
+  // instead of an error.
   auto shrunk = schedule_.shrink_to(time->remaining());
   if (!shrunk) return Unexpected(shrunk.error());
   if (*shrunk) {
@@ -139,6 +156,8 @@ Expected<void> IteratedRace::State::end_estimate() {
   }
   std::vector<std::int64_t> ids = std::move(estimate_->tried);
   std::erase_if(ids, [&](std::int64_t id) { return !candidate(id).takes_part; });
+  // All configurations of the estimate enter the first race as elites, so that their runs are not
+  // repeated (irace facts, 16). first_contestants() keeps the best if there are too many.
   elites = ranked(ids);
   estimate_.reset();
   time->end_estimate();
@@ -147,6 +166,8 @@ Expected<void> IteratedRace::State::end_estimate() {
   return {};
 }
 
+/// A pair on which a configuration was not run is NaN: overall ranks put more pairs before fewer
+/// (irace facts, 11).
 std::vector<Elite> IteratedRace::State::ranked(std::span<const std::int64_t> ids) const {
   std::vector<std::vector<double>> costs;
   for (const std::int64_t id : ids) {

@@ -21,6 +21,8 @@ std::vector<RaceStep> Race::take_steps() {
   return std::exchange(steps_, {});
 }
 
+/// What an elite knew before is not a result of this race, unless a targetEvaluator gave another
+/// cost (irace facts, 18.4).
 std::vector<Race::Result> Race::results(std::size_t column) const {
   const std::vector<double>& past = contestants_[column].past;
   const auto first_past = static_cast<std::size_t>(settings_.new_pairs);
@@ -46,6 +48,7 @@ std::vector<Race::Survivor> Race::survivors() const {
   for (const std::size_t c : alive_) {
     const auto known = std::any_of(costs_[c].begin(), costs_[c].end(),
                                    [](double cost) { return !std::isnan(cost); });
+    // irace facts, 12: rejections can leave an alive configuration without any result.
     if (!known) continue;
     columns.push_back(c);
     rows = std::max(rows, costs_[c].size());
@@ -53,12 +56,16 @@ std::vector<Race::Survivor> Race::survivors() const {
   std::vector<std::vector<double>> table;
   for (const std::size_t c : columns) {
     table.push_back(costs_[c]);
+    // Rows may differ in length: a row grows only when its configuration is run.
     table.back().resize(rows, std::numeric_limits<double>::quiet_NaN());
   }
+  // irace facts, 9.4: overall ranks over all rows of the race.
   const std::vector<double> overall = overall_ranks(table, settings_.test_type);
   std::vector<Survivor> survivors;
   for (std::size_t i = 0; i < columns.size(); ++i)
     survivors.push_back({columns[i], overall[i]});
+  // Survivors of equal rank keep the order of the race: former elites first, then new ones by id
+  // (decision 10).
   std::stable_sort(survivors.begin(), survivors.end(),
                    [](const Survivor& a, const Survivor& b) { return a.rank < b.rank; });
   return survivors;

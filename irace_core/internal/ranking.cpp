@@ -27,6 +27,7 @@ std::vector<std::size_t> common_rows(const std::vector<std::vector<double>>& cos
   return rows;
 }
 
+/// irace facts, 11, F-test: in each row the average ranks of the group, summed over the rows.
 std::vector<double> rank_sums(const std::vector<std::vector<double>>& costs, const Group& group,
                               const std::vector<std::size_t>& rows) {
   RankTable table(group.size());
@@ -44,6 +45,8 @@ std::vector<double> rank_sums(const std::vector<std::vector<double>>& costs, con
   return sums;
 }
 
+/// irace facts, 11, t-tests. mean_of() carries rounding errors along, so that equal values have
+/// equal means, as in R.
 std::vector<double> ranks_of_means(const std::vector<std::vector<double>>& costs,
                                    const Group& group, const std::vector<std::size_t>& rows) {
   std::vector<double> means(group.size(), 0);
@@ -69,6 +72,8 @@ std::vector<double> group_ranks(const std::vector<std::vector<double>>& costs, c
 }  // namespace
 
 std::vector<double> overall_ranks(const std::vector<std::vector<double>>& costs, TestType type) {
+  // More pairs first: a configuration that was dropped early has seen fewer, so its ranks cannot be
+  // compared with those of a survivor.
   std::map<std::ptrdiff_t, Group, std::greater<>> groups;
   for (std::size_t c = 0; c < costs.size(); ++c) {
     const auto known = std::count_if(costs[c].begin(), costs[c].end(),
@@ -81,6 +86,7 @@ std::vector<double> overall_ranks(const std::vector<std::vector<double>>& costs,
     const std::vector<double> within = group_ranks(costs, group, type);
     for (std::size_t i = 0; i < group.size(); ++i)
       ranks[group[i]] = shift + within[i];
+    // irace facts, 11: the largest rank of a group is added to all ranks of the next one.
     shift += *std::max_element(within.begin(), within.end());
   }
   return ranks;

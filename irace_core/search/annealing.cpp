@@ -25,6 +25,7 @@ constexpr double kPublishedStart = 125;
 constexpr double kPublishedEnd = 0.00125;
 constexpr std::int64_t kPublishedHold = 3;
 
+/// The runs of the first round: the start and the random configurations on the first window.
 std::int64_t scale_runs_of(const AnnealingOptions& options) {
   return (kScaleSample + 1) * options.window;
 }
@@ -37,10 +38,14 @@ std::int64_t most_runs_of(const AnnealingOptions& options) {
 /// The factor between the start temperature and the temperature after `used` runs.
 double cooled(const AnnealingOptions& options, std::int64_t budget, std::int64_t used) {
   SWARMSMITH_ASSERT(options.start_temperature > 0, "the start temperature is above 0");
+  // Only the runs of the iterations cool: those of the scale and of the final stage are outside of
+  // the walk.
   const auto walked = static_cast<double>(used - scale_runs_of(options));
   const auto all = static_cast<double>(budget - scale_runs_of(options) - 2 * options.final_runs);
   const double share = std::clamp(walked / all, 0.0, 1.0);
+  // A geometric sequence cannot reach 0, so an end temperature of 0 becomes a very small one.
   const double end = std::max(options.end_temperature, 1e-12) / options.start_temperature;
+  // Geometric cooling: equal numbers of runs multiply the temperature by equal factors.
   return pow(end, share);
 }
 
@@ -71,6 +76,7 @@ double standard_deviation(std::span<const double> values) {
   double squares = 0;
   for (const double value : values)
     squares += (value - mean) * (value - mean);
+  // The sample's standard deviation: the mean is estimated from the same values.
   return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
@@ -106,6 +112,8 @@ class Annealing final : public Strategy {
   std::int64_t planned_iterations() const override {
     const std::int64_t steps =
         steps_ + std::max<std::int64_t>(0, budget_ - used_ - 2 * options_.final_runs) / most_runs();
+    // The scale, the blocks, the final stage. The number of steps is a lower bound, since a step
+    // needs fewer runs while incumbent and best are the same.
     return 1 + (steps + kAnnealingBlock - 1) / kAnnealingBlock + 1;
   }
 
@@ -160,6 +168,7 @@ class Annealing final : public Strategy {
   Verdict take_scale(std::span<const double> costs) {
     std::vector<double> means;
     for (const Scored& one : ranked(runs_, costs)) {
+      // The mean of a rejected configuration is infinite: it has no place in a standard deviation.
       if (one.id != incumbent_.id && !std::isinf(one.mean)) means.push_back(one.mean);
     }
     scale_ = standard_deviation(means);
@@ -177,10 +186,13 @@ class Annealing final : public Strategy {
   /// pairs, the candidate on the whole window, so that all three are compared on the same pairs.
   Expected<std::optional<Round>> step_round(std::int64_t next_id) {
     SWARMSMITH_ASSERT(phase_ == Phase::Walking, "steps lie between the scale and the final stage");
+    // A stream for each iteration: the numbers that one iteration draws do not shift those of the
+    // next one.
     step_rng_ = rng_.split("perturb", static_cast<std::uint64_t>(++steps_));
     auto perturbed = neighbourhood_.perturb(incumbent_.configuration, step_rng_);
     if (!perturbed) return Unexpected(perturbed.error());
     Round round;
+    // One decision, so one step in the events, though it has runs on several pairs.
     round.is_one_step = true;
     if ((steps_ - 1) % kAnnealingBlock == 0) {
       round.start =
@@ -188,6 +200,7 @@ class Annealing final : public Strategy {
                        .budget = std::min(kAnnealingBlock * most_runs(), budget_ - used_)};
     }
     candidate_ = {.id = next_id, .configuration = *perturbed, .costs = {}};
+    // The parent is the incumbent, so the parents show which candidates were accepted.
     round.newcomers.push_back({std::move(*perturbed), incumbent_.id});
 
     window_begin_ += options_.moved;
@@ -210,6 +223,7 @@ class Annealing final : public Strategy {
       keep_costs(*walker, costs);
     if (is_accepted()) {
       incumbent_ = candidate_;
+      // All three have costs on the same window here, so their means can be compared.
       if (candidate_.mean() <= best_.mean()) best_ = candidate_;
     }
     cool();
@@ -232,11 +246,13 @@ class Annealing final : public Strategy {
     const double now = candidate_.mean();
     const double before = incumbent_.mean();
     if (now <= before) return true;
+    // With T = 0 the search is iterative improvement: nothing worse is accepted (docs/methods.md).
     const double t = temperature();
     return t > 0 && draw < exp((before - now) / t);
   }
 
   double temperature() const {
+    // The published temperatures are in score units, others are multiples of the scale.
     if (options_.cooling == Cooling::Published) return published_temperature_;
     if (options_.start_temperature == 0) return 0;
     return scale_ * options_.start_temperature * cooled(options_, budget_, used_);
@@ -245,6 +261,7 @@ class Annealing final : public Strategy {
   /// The published schedule halves the temperature after every third iteration; at its end it
   /// starts again, from the best configuration (docs/methods.md, `cooling`).
   void cool() {
+    // Geometric cooling follows from the number of runs (see cooled()).
     if (options_.cooling != Cooling::Published) return;
     if (steps_ % kPublishedHold == 0) published_temperature_ /= 2;
     if (published_temperature_ >= kPublishedEnd) return;
@@ -258,6 +275,7 @@ class Annealing final : public Strategy {
     phase_ = Phase::Final;
     Round round;
     const std::vector<std::int64_t> ids = elite_ids();
+    // If incumbent and best are the same configuration, it gets the runs reserved for both.
     const std::int64_t runs = (budget_ - used_) / static_cast<std::int64_t>(ids.size());
     SWARMSMITH_ASSERT(runs >= options_.final_runs, "walks_on() leaves runs for the final stage");
     const std::int64_t first = window_begin_ + options_.window;
@@ -283,6 +301,7 @@ class Annealing final : public Strategy {
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       if (runs_[i].first == walker.id) walker.costs[runs_[i].second] = costs[i];
     }
+    // All walkers keep the costs of the same pairs, so that their means can be compared.
     walker.costs.erase(walker.costs.begin(), walker.costs.lower_bound(window_begin_));
     SWARMSMITH_ASSERT(static_cast<std::int64_t>(walker.costs.size()) == options_.window,
                       "a walker has been run on the whole window");
@@ -325,6 +344,7 @@ double told_temperature(const AnnealingOptions& options, std::int64_t budget, st
     if (options.start_temperature == 0) return 0;
     return options.start_temperature * cooled(options, budget, used);
   }
+  // The same steps as in Annealing::cool().
   double temperature = kPublishedStart;
   for (std::int64_t i = kPublishedHold; i < number; i += kPublishedHold) {
     temperature /= 2;
@@ -337,6 +357,7 @@ Neighbourhood one_parameter_neighbourhood(const ParameterSpace& space, Configura
   const auto perturb = [&space](const Configuration& from, Rng& rng) -> Expected<Configuration> {
     std::vector<std::size_t> changeable;
     for (std::size_t i = 0; i < space.size(); ++i) {
+      // A fixed parameter has no other value, and an inactive one has none at all.
       if (from.is_active(i) && !space.is_fixed(i)) changeable.push_back(i);
     }
     constexpr int kTries = 100;
@@ -344,6 +365,8 @@ Neighbourhood one_parameter_neighbourhood(const ParameterSpace& space, Configura
       const std::size_t changed = changeable[rng.below(changeable.size())];
       auto made =
           irace::sample_configuration(space, [&](std::size_t parameter, const Interval& domain) {
+            // A value that is kept may lie outside of a dependent domain after the change; it is
+            // then drawn anew.
             const bool is_kept =
                 parameter != changed && from.is_active(parameter) &&
                 (!space.is_numeric(parameter) ||
@@ -352,6 +375,7 @@ Neighbourhood one_parameter_neighbourhood(const ParameterSpace& space, Configura
                            : irace::quantile_value(space, parameter, domain, rng.uniform());
           });
       if (!made) return made;
+      // A draw may give the old value again: the same configuration would not be a step.
       if (*made != from && !space.is_forbidden(*made)) return made;
     }
     return bad_input("no configuration besides the incumbent is allowed");
@@ -400,6 +424,8 @@ std::vector<SearchFault> AnnealingOptions::faults() const {
 Expected<std::unique_ptr<search::Strategy>> AnnealingOptions::start(search::Start from) const {
   if (!from.neighbourhood) {
     Rng rng = Rng(from.scenario.seed).split("start");
+    // docs/methods.md: the search begins at the first given configuration, otherwise at a random
+    // one.
     auto first = from.initial.empty() ? search::draw_uniform(from.space, {}, rng)
                                       : Expected<Configuration>(from.initial.front());
     if (!first) return Unexpected(first.error());

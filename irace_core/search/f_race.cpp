@@ -12,6 +12,7 @@ namespace {
 /// The runs that irace plans for a configuration of a first race: up to the first test, and on to
 /// the next one.
 std::int64_t first_test_cost(const Scenario& scenario) {
+  // irace facts, 3.3, with i = 1 and without elites.
   return std::max(scenario.mu, scenario.first_test * scenario.block_size) +
          scenario.each_test * scenario.block_size;
 }
@@ -53,14 +54,20 @@ class FRace final : public IteratedRace {
 }  // namespace
 
 Scenario f_race_scenario(Scenario scenario, const FRaceOptions& options) {
+  // docs/methods.md, `f-race`: no public program has the number of the paper. With a twentieth of
+  // the budget, the first five tasks use a quarter of it.
   constexpr std::int64_t kShare = 20;
   constexpr std::int64_t kLeast = 2;
   const std::int64_t budget = f_race_budget(scenario);
+  // More could not be run up to the first test and the next one.
   const std::int64_t most = std::max(kLeast, budget / first_test_cost(scenario));
+  // One iteration of irace without elites is an F-race: it ends with one survivor or with its
+  // budget. R's irace takes the same steps with these options (docs/methods.md).
   scenario.nb_iterations = 1;
   scenario.nb_configurations = options.configurations > 0
                                    ? options.configurations
                                    : std::clamp(budget / kShare, kLeast, most);
+  // irace's limit of 1024 configurations (irace facts, 3.3) would cut the race of a large budget.
   scenario.max_configurations_per_race =
       std::max(scenario.max_configurations_per_race, scenario.nb_configurations);
   scenario.elitist = false;
@@ -72,6 +79,7 @@ Scenario f_race_scenario(Scenario scenario, const FRaceOptions& options) {
 }
 
 std::vector<SearchFault> FRaceOptions::faults() const {
+  // A race of one configuration has nothing to compare.
   if (configurations != 1) return {};
   return {{{"configurations"}, "`configurations` must be 0 (automatic) or at least 2, not 1"}};
 }

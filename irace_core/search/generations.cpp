@@ -12,6 +12,8 @@ namespace {
 /// the budget.
 std::int64_t published_final_runs(std::int64_t budget, std::int64_t population) {
   constexpr std::int64_t kLargeBudget = 200'000;
+  // docs/methods.md, `evolution`: 20 runs for a budget of 10,000, 100 for 50,000 and 100,000, 500
+  // for 200,000.
   if (budget >= kLargeBudget) return 500;
   return std::clamp<std::int64_t>(budget / (5 * population), 1, 100);
 }
@@ -43,6 +45,7 @@ Expected<std::optional<Round>> Generations::next(std::int64_t next_id) {
   if (over_) return std::nullopt;
   ++generation_;
   const std::int64_t size =
+      // The last part of a search whose generations share their pairs may be smaller.
       is_final() ? plan_.finalists : std::min(plan_.population, plan_.configurations - bred_);
   SWARMSMITH_ASSERT(size >= 1, "a generation has a member, and the final stage a finalist");
   auto brood = is_final() ? breeder_->finalists(size, next_id, last_)
@@ -61,6 +64,7 @@ Expected<std::optional<Round>> Generations::next(std::int64_t next_id) {
   const std::int64_t pairs = is_final() ? plan_.final_runs : plan_.runs;
   const std::int64_t first_pair = plan_.fresh_pairs || is_final() ? next_pair_ : 1;
   next_pair_ = std::max(next_pair_, first_pair + pairs);
+  // All members run on the same pairs, so differences of means are not due to the choice of pairs.
   round.runs = all_on(ids, first_pair, pairs);
   round.start = Round::Start{.elites = elites_,
                              .budget = static_cast<std::int64_t>(round.runs.size()),
@@ -73,6 +77,7 @@ Verdict Generations::take(std::span<const double> costs) {
   SWARMSMITH_ASSERT(costs.size() == runs_.size(), "there is a cost for each run");
   std::vector<Scored> order = ranked(runs_, costs);
   over_ = is_final();
+  // The winner is decided by the final stage alone, not by the means of earlier generations.
   const std::vector<Scored> elites = is_final() ? order : breeder_->elites(order);
   elites_.clear();
   for (const Scored& elite : elites)
@@ -83,6 +88,7 @@ Verdict Generations::take(std::span<const double> costs) {
   verdict.ended = IterationEnded{
       .reason = over_ ? "the final stage is over" : "every member was run on every pair",
       .elites = as_elites(elites)};
+  // An extension continues from the last generation, not from the final stage.
   if (!over_) last_ = std::move(order);
   return verdict;
 }
@@ -93,6 +99,8 @@ Expected<void> Generations::extend(std::int64_t experiments) {
         "is too little for a further generation and a final stage: it must be at least " +
         std::to_string(*least));
   }
+  // The finished plan had its generations and a final stage. The new one ends with a final stage
+  // again (docs/methods.md).
   iterations_before_ += plan_.generations + 1;
   const std::int64_t finals = plan_.finalists * plan_.final_runs;
   const std::int64_t configurations = (experiments - finals) / plan_.runs;
@@ -110,6 +118,8 @@ Expected<void> Generations::extend(std::int64_t experiments) {
 }
 
 Expected<std::int64_t> Generations::least_extension() const {
+  // The smallest part is a single configuration if generations share their pairs, else a whole
+  // generation.
   const std::int64_t least = plan_.may_be_cut() ? 1 : plan_.population;
   return least * plan_.runs + plan_.finalists * plan_.final_runs;
 }

@@ -32,10 +32,13 @@ class RandomBreeder final : public Breeder {
                         std::span<const Scored>) override {
     Brood brood;
     for (std::int64_t i = 0; i < size; ++i) {
+      // Given configurations come first (docs/methods.md, "What does not go together"). They count
+      // as draws.
       if (drawn_ < initial_.size()) {
         brood.newcomers.push_back({initial_[drawn_++], 0});
         continue;
       }
+      // A stream for each draw: a larger budget begins with the same configurations.
       Rng rng = rng_.split("random", ++drawn_);
       auto drawn = draw_uniform(space_, repair_, rng);
       if (!drawn) return Unexpected(drawn.error());
@@ -54,6 +57,7 @@ class RandomBreeder final : public Breeder {
 
   /// The best of all chunks so far; all chunks are run on the same pairs.
   std::vector<Scored> elites(std::span<const Scored> chunk) override {
+    // Means of different chunks can be compared, since the chunks share their pairs.
     best_.insert(best_.end(), chunk.begin(), chunk.end());
     std::ranges::sort(best_, [](const Scored& a, const Scored& b) {
       return a.mean != b.mean ? a.mean < b.mean : a.id < b.id;
@@ -81,10 +85,12 @@ class RandomBreeder final : public Breeder {
 }  // namespace
 
 Expected<Configuration> draw_uniform(const ParameterSpace& space, const Repair& repair, Rng& rng) {
+  // As in irace (irace facts, 8.4).
   constexpr int kTries = 100;
   for (int i = 0; i < kTries; ++i) {
     auto drawn = sample_uniform(space, rng);
     if (!drawn) return drawn;
+    // irace facts, 8.5: repair comes before the forbidden test.
     auto whole = irace::repaired(space, repair, std::move(*drawn));
     if (!whole || !space.is_forbidden(*whole)) return whole;
   }
@@ -99,8 +105,11 @@ Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOpt
   const std::int64_t least = (is_automatic ? 1 : options.finalists) * each;
   if (budget < least) return Unexpected(too_small(budget, least));
   const std::int64_t finalists =
+      // docs/methods.md: budget / 1,000, or as many as the budget can pay. Each needs its runs as a
+      // draw and its final runs.
       is_automatic ? std::clamp<std::int64_t>(budget / kAutomaticFinalists, 1, budget / each)
                    : options.finalists;
+  // The final stage is reserved first; all other runs go into draws.
   GenerationPlan plan{.population = kChunk,
                       .configurations = (budget - finalists * options.final_runs) / options.runs,
                       .runs = options.runs,

@@ -28,6 +28,8 @@ Expected<std::unique_ptr<Search>> SearchLoop::start(std::unique_ptr<const Parame
 Expected<void> SearchLoop::ask() {
   Digest digest;
   strategy_->add_to(digest);
+  // A step has the digest of the state before its round and of the costs, so that a replay finds
+  // the first step that differs (decision 3).
   round_digest_ = digest.value64();
   auto next = strategy_->next(static_cast<std::int64_t>(configurations_.size()) + 1);
   if (!next) return Unexpected(next.error());
@@ -39,6 +41,7 @@ Expected<void> SearchLoop::ask() {
   round_ = std::move(**next);
   SWARMSMITH_ASSERT(used_ + static_cast<std::int64_t>(round_.runs.size()) <= budget(),
                     "a search keeps to its budget");
+  // The event of the iteration comes before those of its configurations.
   if (round_.start) begin_iteration(*round_.start);
   for (Newcomer& newcomer : round_.newcomers) {
     configurations_.emplace_back(newcomer.configuration);
@@ -53,6 +56,7 @@ Expected<void> SearchLoop::ask() {
   for (const auto& [id, pair] : round_.runs) {
     SWARMSMITH_ASSERT(id >= 1 && id <= static_cast<std::int64_t>(configurations_.size()),
                       "a round runs existing configurations");
+    // Pairs are made as they are needed: a strategy says only their numbers.
     instances_.extend_to(pair);
     wanted_.push_back({.configuration = id,
                        .pair = pair,
@@ -60,6 +64,7 @@ Expected<void> SearchLoop::ask() {
                        .seed = instances_[pair].seed});
     alive.insert(id);
   }
+  // Until the costs arrive, all configurations of the round are alive.
   alive_.assign(alive.begin(), alive.end());
   return {};
 }
@@ -91,9 +96,12 @@ void SearchLoop::tell(std::span<const Measurement> measurements) {
   std::vector<double> costs;
   costs.reserve(measurements.size());
   for (const Measurement& measurement : measurements) {
+    // NaN is an error of the target, and no rejection (irace facts, 12).
     if (std::isnan(measurement.cost)) throw std::invalid_argument("a cost is not a number");
     costs.push_back(measurement.cost);
   }
+  // Steps are reported before the decision: they have the number of configurations that were alive
+  // during the runs.
   report_steps(costs);
   Verdict verdict = strategy_->take(costs);
   alive_ = std::move(verdict.alive);
@@ -131,6 +139,7 @@ void SearchLoop::report_steps(std::span<const double> costs) {
 
 void SearchLoop::report_step(std::size_t first, std::size_t end, std::span<const double> costs) {
   const auto count = static_cast<std::int64_t>(end - first);
+  // All runs count here, also those of a configuration that was rejected in the same round.
   used_ += count;
   // The best so far in this round; as in races, 0 if all were rejected.
   Scored best = ranked(std::span(round_.runs).first(end), costs.first(end)).front();
@@ -158,6 +167,7 @@ void SearchLoop::report_step(std::size_t first, std::size_t end, std::span<const
 void SearchLoop::stop() {
   finished_ = true;
   wanted_.clear();
+  // A search ends without elites only if all of them were rejected (see tell()).
   if (!failure_ && elites_.empty()) {
     failure_ = Error{ErrorKind::BadInput, "every configuration was rejected", ""};
   }
@@ -169,6 +179,7 @@ void SearchLoop::stop() {
 Expected<void> SearchLoop::extend(std::int64_t experiments) {
   SWARMSMITH_ASSERT(finished_, "an extension follows the end");
   if (failure_) return Unexpected(*failure_);
+  // The strategy refuses what is too small before anything changes.
   if (auto extended = strategy_->extend(experiments); !extended) return extended;
   scenario_.max_experiments += experiments;
   finished_ = false;

@@ -15,6 +15,9 @@ Expected<void> check_for_races_alone(const Scenario& scenario, const std::string
   const auto refuse = [&](const char* option) {
     return bad_input("works only with irace and f-race, not with " + name, option);
   };
+  // Rounds have neither bounds nor calls of a targetEvaluator, and need a list of pairs that can
+  // grow, which the list of a deterministic target cannot (docs/methods.md, "What does not go
+  // together").
   if (scenario.max_time > 0) return refuse("max_time");
   if (uses_capping(scenario) || scenario.bound_max > 0) return refuse("bound_max");
   if (scenario.target_evaluator) return refuse("target_evaluator");
@@ -40,6 +43,8 @@ Expected<std::unique_ptr<Search>> start_rounds(const Kind& kind, ParameterSpace 
   for (const Configuration& given : initial) {
     if (auto checked = space.check(given); !checked) return Unexpected(checked.error());
   }
+  // IteratedRace does this itself, with a warning; strategies get only configurations that may be
+  // run.
   std::erase_if(initial, [&](const Configuration& given) { return space.is_forbidden(given); });
   // Strategies keep a pointer to the space.
   auto shared = std::make_unique<ParameterSpace>(std::move(space));
@@ -58,9 +63,11 @@ Expected<std::unique_ptr<Search>> start_search(ParameterSpace space, const Scena
                                                const SearchOptions& options,
                                                std::vector<Configuration> initial, Repair repair,
                                                std::optional<search::Neighbourhood> neighbourhood) {
+  // An ablation takes the place of a search, whatever the options of searches say.
   if (scenario.ablation) return start_ablation(std::move(space), scenario, initial);
   return std::visit(
       [&](const auto& kind) {
+        // Races make their own search; others are strategies in rounds (see search_parts.h).
         if constexpr (requires { &std::decay_t<decltype(kind)>::start_race; }) {
           return kind.start_race(std::move(space), scenario, std::move(initial), std::move(repair));
         } else {
