@@ -20,6 +20,7 @@ Expected<void> put_baseline(DesignPlan& plan, const Method& method) {
   if (method.baseline.empty()) return {};
   plan.only_test = true;
   if (method.baseline == kRandomMachine) {
+    // A stream of its own: the same design draws the same machine, whatever else uses the seed.
     Rng rng = Rng(plan.scenario.seed).split("random machine");
     auto drawn = sample_uniform(plan.space, rng);
     if (!drawn) return Unexpected(drawn.error());
