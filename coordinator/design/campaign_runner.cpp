@@ -23,6 +23,7 @@ CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
     const DesignId id = plan.row.id;
     all_.push_back(id);
     if (std::ranges::find(finished, id) != finished.end()) {
+      // The pool need not remember its outcomes (`take_ended`).
       ended_.push_back(id);
       continue;
     }
@@ -48,6 +49,7 @@ std::vector<Task> CampaignRunner::take_tasks() {
 /// (orchestration facts, 10).
 std::vector<Task> CampaignRunner::take_more(std::size_t count, std::size_t slots) {
   std::vector<Task> more = take_tasks();
+  // Decision 8 has the reasons for these steps and their limits.
   open_more(count, std::min(most_.at_most, slots / kSlotsOfADesign), more);
   look_ahead(count, 1, more);
   open_more(count, most_.at_most, more);

@@ -136,6 +136,7 @@ void RowRecorder::record_end(const IterationEnded& ended) {
                           .step = steps(),
                           .reason = "not kept"});
   }
+  // The next race begins with them.
   alive_ = std::move(elites);
   if (!ended.elites.empty()) {
     design_.best = candidate(ended.elites.front().configuration);

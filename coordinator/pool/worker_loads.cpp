@@ -79,6 +79,7 @@ bool WorkerLoads::renew_lingering(WorkerNumber worker, PackedKey key, TimePoint 
   const auto load = loads_.find(worker);
   if (load == loads_.end()) return false;
   const auto at = load->second.lingering.find(key);
+  // Only the time changes, so neither room nor idle slots do.
   if (at == load->second.lingering.end()) return false;
   at->second = now;
   return true;

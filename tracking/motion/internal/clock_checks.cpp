@@ -72,6 +72,7 @@ void check_repeats(const FilmedCamera& film, Findings& findings) {
                              span.from_s - start, span.to_s - start),
                  span.from_s - start, span.to_s - start);
   }
+  // Standing robots at the end of a film look like a recorder that hangs: a doubt, not a fault.
   const double doubtful = repeats.doubtful_from_s.value_or(start) - start;
   if (!issue && repeats.doubtful_from_s && doubtful < film.duration_s - kSameInstant_s) {
     issue = issue_of(IssueCode::PicturesRepeated,
@@ -134,6 +135,7 @@ void check_counting(const FilmedCamera& film, bool length_agrees, Findings& find
   // A sidecar has the camera's own times (docs/tracking.md, "Videos and time").
   if (film.record.time_source == TimeSource::Sidecar) return findings.add(std::move(check));
   const auto period = counted_period_s(film.record.frame_times);
+  // Times that are not multiples of one period were read from a clock.
   if (!period && film.record.time_source != TimeSource::FrameRate) {
     return findings.add(std::move(check));
   }
@@ -177,6 +179,7 @@ void check_order(const FilmedCamera& film, const ClockSteps& steps, Findings& fi
 void check_steps(const FilmedCamera& film, Findings& findings) {
   const ClockSteps steps = clock_steps(film);
   check_order(film, steps, findings);
+  // docs/tracking.md, "Is the clock right?".
   constexpr double kLimit_s = 0.15;
   Check check{
       .name = "steps of the clock",
@@ -329,6 +332,7 @@ void check_speeds(const std::vector<TrackedRobot>& robots, const TrackLimits& li
   std::vector<double> shares;
   for (const TrackedRobot& robot : robots) {
     const Fastest fastest = fastest_of(robot, duration_s);
+    // A robot that only turns shows the speed of the film, too.
     shares.push_back(std::max(fastest.speed_m_s / limits.driving_speed_m_s,
                               fastest.turn_rad_s / limits.driving_turn_rad_s));
   }
