@@ -448,7 +448,7 @@ void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, T
   ++standing.unchecked_of(campaign);
   ++standing.taken;
   if (++principal.taken == 1) update_room(principal);
-  // Only for programs: there is no referee, so a result shows that the other worker failed alone.
+  // Only for programs, which have no referee: a result shows that the other worker failed alone.
   const bool failed_elsewhere =
       book_->options.evaluates_programs && record.avoid != 0 && record.avoid != entry.number;
   if (failed_elsewhere) {

@@ -216,7 +216,7 @@ void Trust::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now)
   Principal* principal = principals_.find(said.principal);
   const bool is_decided = ruling.kind != Ruling::Kind::TimedOut;
   if (said.taken && is_decided && is_right(said, ruling)) note_audited(said, principal, ruling);
-  // A death is no statement, so it cannot be wrong.
+  // A worker that died did not claim anything, so it cannot be wrong.
   if (principal == nullptr || said.what == Said::What::Died) return;
   if (said.what == Said::What::NoScore) {
     // A failure where there is a score may be bad luck: it counts against the worker, but is not a

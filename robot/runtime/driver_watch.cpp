@@ -385,8 +385,8 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_obedience(TimePoint 
   unobeyed_since_ = obeyed_;
   unobeyed_at_ = now;
   unobeyed_ = now - obeyed_;
-  // Several reports of speeds that were not commanded cannot be a delay, so there is no need to
-  // wait.
+  // Several reports of speeds that were not commanded cannot be a delay, so the node does
+  // not wait.
   const bool ends = strange_ >= kStrange || unobeyed_before_ + unobeyed_ > limits_.give_up;
   return Trouble{obeyed_, true, ends, why_not_obeyed(now)};
 }
@@ -408,7 +408,7 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble(TimePoint now) {
   for (const auto& one : all) {
     if (one) longest_off_ = std::max(longest_off_, now - one->since);
   }
-  // Also below `hold`, where it is no trouble: the log has the measured value.
+  // Also below `hold`, although this is not a trouble: the log has the measured value.
   if (!driver_.empty()) longest_off_ = std::max(longest_off_, now - obeyed_);
   const auto first = [&all](bool Trouble::*what) -> std::optional<Trouble> {
     for (const auto& one : all) {

@@ -639,7 +639,7 @@ void RobotNode::judge() {
   };
   if (!broken_.empty()) add(RunVerdict::Invalid, broken_);
   if (log_lost_) add(RunVerdict::Invalid, "the log is incomplete: " + log_trouble_);
-  // In lock-step there is no limit of time: the world decides how many cycles a run has.
+  // Not in lock-step: there the world decides how many cycles a run has.
   if (clock_ && clock_->cycles() > 0) {
     SWARMSMITH_ASSERT(held_ + skipped_ <= clock_->cycles(), "no cycle comes after the last one");
     const double share = static_cast<double>(skipped_) / static_cast<double>(clock_->cycles());

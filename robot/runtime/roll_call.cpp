@@ -135,7 +135,7 @@ std::vector<std::string> RollCall::complaints(TimePoint now, const Robot* kind) 
                       robot.name, 1000 * std::fabs(robot.offset_s),
                       robot.offset_s > 0 ? "ahead of" : "behind", 1000 * kMostOffset_s));
     }
-    // Compared with the first robot that answers. All others equal it if there is no complaint.
+    // Compared with the first robot that answers. If nothing is reported, all are equal.
     if (first == nullptr) first = &robot;
     const NodeState& other = *first->state;
     compare(robot, *first, "has the machine", state.machine_digest, other.machine_digest,

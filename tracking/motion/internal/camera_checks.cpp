@@ -36,7 +36,7 @@ FramesOfRun frames_of(const CameraRecord& record, const Repeats& repeats, double
   SWARMSMITH_ASSERT(repeats.again.size() == record.frame_times.size(), "a word about each frame");
   FramesOfRun frames;
   for (std::size_t i = 0; i < record.frame_times.size(); ++i) {
-    // A copy of the picture before is no new picture, so a recorder cannot hide a low rate with
+    // A copy does not count as a picture, so a recorder cannot hide a low rate with
     // copies.
     if (!repeats.again[i]) frames.times.push_back(record.frame_times[i] - start_s);
   }

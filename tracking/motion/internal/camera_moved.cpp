@@ -122,7 +122,8 @@ std::optional<Issue> moved(const std::vector<Span>& spans, const std::string& ca
           ? fmt::format("before {:.1f} s", std::max(0.0, first->time_s))
           : fmt::format("between {:.1f} s and {:.1f} s", std::prev(first)->time_s, first->time_s);
   constexpr double kNear_px = 20;
-  // All tags are nearly where a picture turned by 180 degrees has them: this is no push.
+  // All tags are nearly where a picture turned by 180 degrees has them, so the camera was not
+  // pushed.
   const bool is_turned = worst->tags >= 2 && worst->turned_px < std::min(kNear_px, worst->shift_px);
   return Issue{
       IssueCode::CameraMoved,
