@@ -14,14 +14,20 @@ Result evaluate(const Evaluator& evaluator, const LeasedTask& item) {
   const auto begin = std::chrono::steady_clock::now();
   try {
     result = evaluator(item);
+    // A score is a finite number: SQLite stores NaN as NULL (orchestration facts, 7), and an
+    // infinite cost means a rejection (irace facts, 12).
     if (!std::isfinite(result.measured.score)) result = {.failure = "the score is not finite"};
+    // An exception that leaves a thread would end the process, and with it the evaluations of all
+    // slots.
   } catch (const std::exception& error) {
     result.failure = error.what();
   } catch (...) {
     result.failure = "an exception without a text";
   }
   const auto spent = std::chrono::steady_clock::now() - begin;
+  // Measured here for every kind of evaluator: credit and shares follow from it.
   result.measured.wall_us = std::chrono::duration_cast<std::chrono::microseconds>(spent).count();
+  // Those of the lease, so that an evaluator cannot answer for another task.
   result.key = item.key;
   result.attempt = item.attempt;
   result.signature = item.signature;
@@ -43,6 +49,7 @@ Pool::~Pool() {
 }
 
 Expected<void> Pool::use(const std::string& scenario) {
+  // Made without the lock: slots may still be evaluating.
   auto next = std::make_shared<Generation>();
   for (int slot = 0; slot < slots_; ++slot) {
     Expected<Evaluator> evaluator = make_evaluator_(scenario);
@@ -50,6 +57,7 @@ Expected<void> Pool::use(const std::string& scenario) {
     next->evaluators.push_back(std::move(*evaluator));
   }
   const std::scoped_lock lock(mutex_);
+  // Results of items that still run get the old number, and are dropped in `finish`.
   ++generation_;
   current_ = std::move(next);
   waiting_.clear();
@@ -79,6 +87,7 @@ std::vector<PackedKey> Pool::take_back() {
 std::vector<PoolEvent> Pool::take_events() {
   const std::scoped_lock lock(mutex_);
   SWARMSMITH_ASSERT(results_ <= events_.size(), "results are among what slots did");
+  // After results the owner polls by itself for a while, so it need not be woken for the next one.
   owner_comes_ = results_ > 0;
   results_ = 0;
   return std::exchange(events_, {});
@@ -97,8 +106,11 @@ void Pool::work(const std::stop_token& stop, std::size_t slot) {
       item = std::move(waiting_.front());
       waiting_.pop_front();
       ++running_;
+      // The slot's own reference keeps its evaluator alive if another scenario replaces it
+      // meanwhile.
       generation = current_;
       number = generation_;
+      // Under the same lock as the removal: an item that is taken back has not started.
       events_.emplace_back(ItemStarted{item.key});
     }
     SWARMSMITH_ASSERT(slot < generation->evaluators.size(), "each slot has its evaluator");
@@ -112,13 +124,16 @@ void Pool::finish(std::uint64_t generation, Result result) {
     const std::scoped_lock lock(mutex_);
     SWARMSMITH_ASSERT(running_ > 0, "what is finished was running");
     --running_;
+    // In another scenario its key means another evaluation.
     if (generation != generation_) return;
     events_.emplace_back(std::move(result));
     ++results_;
     const bool first = results_ == 1 && !owner_comes_;
+    // The coordinator must hear of the results now, or a slot waits for its next task.
     const bool dry = waiting_.size() + running_ <= static_cast<std::size_t>(slots_);
     wake = first || dry || results_ == kMaxWaiting;
   }
+  // Without the lock, so that the owner does not wake only to wait for it.
   if (wake) wake_();
 }
 

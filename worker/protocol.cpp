@@ -10,6 +10,8 @@
 namespace swarmsmith {
 namespace {
 
+/// A request that gets no answer is repeated: the coordinator limits the rate of scenarios, and
+/// drops requests beyond it (docs/security.md, "Budgets").
 constexpr Duration kAskAgain = std::chrono::seconds(1);
 
 }  // namespace
@@ -42,6 +44,8 @@ void WorkerProtocol::start(TimePoint now) {
 void WorkerProtocol::send(pb::ToCoordinator& message, TimePoint) {
   SWARMSMITH_ASSERT(state_ == State::Greeting || state_ == State::Active,
                     "messages go over a connection that is there");
+  // The coordinator ignores credit of an earlier hello, and credit that is older than the last one
+  // (docs/protocol.md, "What happens when a message is lost, doubled or late").
   message.set_incarnation(incarnation_);
   message.set_sequence(++sequence_);
   actions_.emplace_back(SendToCoordinator{encode(message)});
@@ -51,6 +55,8 @@ void WorkerProtocol::send(pb::ToCoordinator& message, TimePoint) {
 void WorkerProtocol::greet(TimePoint now) {
   SWARMSMITH_ASSERT(state_ != State::Left, "a worker that has left stays away");
   if (state_ == State::Waiting) actions_.emplace_back(OpenConnection{});
+  // Time without a coordinator begins when it asks who this worker is: it does not know it any
+  // more.
   if (state_ == State::Active) alone_since_ = now;
   state_ = State::Greeting;
   greeted_ = now;
@@ -69,6 +75,8 @@ void WorkerProtocol::greet(TimePoint now) {
   hello.set_cpu(clipped_text(identity_.cpu, kMaxNameBytes));
   hello.set_secret(identity_.secret);
   hello.set_scenario(scenario_);
+  // The coordinator keeps the leases of these tasks, and leases the others again. The signatures
+  // prove them to a coordinator that was restarted (decision 19).
   for (const auto& [key, held] : held_) {
     if (hello.holds_size() >= kMaxItemsPerMessage) break;
     unpack(key, *hello.add_holds());
@@ -102,10 +110,13 @@ void WorkerProtocol::leave(WorkerExit code, const std::string& reason) {
 }
 
 void WorkerProtocol::on_frame(std::string_view frame, TimePoint now) {
+  // A message of a connection that was given up.
   if (state_ == State::Left || state_ == State::Waiting) return;
   const Expected<const pb::ToWorker*> message = decode_to_worker(frame, arena_);
   if (message) {
     handle(**message, now);
+    // Another major version: no later message can be understood either. Other frames that cannot be
+    // read are dropped.
   } else if (message.error().kind == ErrorKind::Conflict) {
     leave(WorkerExit::Refused, message.error().message);
   }
@@ -161,6 +172,8 @@ void WorkerProtocol::on_reject(const pb::Reject& reject) {
 void WorkerProtocol::on_welcome(const pb::Welcome& welcome, TimePoint now) {
   if (state_ != State::Greeting) return;
   state_ = State::Active;
+  // Only after a welcome: a coordinator that accepts connections and does not answer is asked at
+  // growing intervals, too.
   backoff_ = options_.first_backoff;
   last_heard_ = now;
   last_beat_ = now;
@@ -173,7 +186,10 @@ void WorkerProtocol::on_welcome(const pb::Welcome& welcome, TimePoint now) {
   dead_after_ = or_default(welcome.dead_after_ms(), dead_after_);
   resend_after_ = or_default(welcome.resend_ms(), resend_after_);
   max_credit_ = std::min<std::uint32_t>(welcome.max_credit(), kMaxItemsPerMessage);
+  // Credit of the last incarnation is void, so it is sent again.
   credit_sent_ = 0;
+  // A key contains the position of a campaign in the scenario's list, so in another scenario the
+  // same key is another evaluation.
   if (welcome.scenario() != scenario_) {
     scenario_ = welcome.scenario();
     has_scenario_ = false;
@@ -196,6 +212,7 @@ void WorkerProtocol::on_welcome(const pb::Welcome& welcome, TimePoint now) {
 
 void WorkerProtocol::on_scenario(const pb::ScenarioReply& reply, TimePoint now) {
   if (has_scenario_ || state_ != State::Active) return;
+  // Orchestration facts, 5 "Scenario by digest". It is requested again after kAskAgain.
   if (digest_of_scenario(reply.scenario()) != scenario_) return;
   has_scenario_ = true;
   actions_.emplace_back(UseScenario{reply.scenario()});
@@ -209,6 +226,7 @@ void WorkerProtocol::on_bad_scenario(const std::string& reason) {
 /// Connected, with a scenario: sends results that the coordinator may not have, asks for work.
 void WorkerProtocol::be_ready(TimePoint now) {
   SWARMSMITH_ASSERT(state_ == State::Active && has_scenario_, "work follows welcome and scenario");
+  // Acknowledgements of the last connection may be lost. A result that comes twice does no harm.
   for (auto& [key, finished] : finished_)
     queue_result(key, finished, now);
   flush(now);
@@ -224,6 +242,8 @@ void WorkerProtocol::on_drain(TimePoint now) {
   // The coordinator may have received the hello already.
   if (state_ == State::Greeting) return say_goodbye(now, "drained without a welcome");
   update_credit(now);
+  // Tasks that have not started go back at once, so that others can evaluate them during the grace
+  // time.
   actions_.emplace_back(TakeBack{});
   std::vector<PackedKey> announced;
   for (const auto& [when, item] : std::exchange(announced_, {}))
@@ -244,11 +264,14 @@ void WorkerProtocol::finish_draining(TimePoint now) {
   for (const auto& [key, held] : held_)
     rest.push_back(key);
   held_.clear();
+  // Otherwise `on_taken_back` would call this function again.
   drain_until_.reset();
   if (!rest.empty()) on_taken_back(rest, now);
   say_goodbye(now, "drained");
 }
 
+/// With it the coordinator counts this worker as one that left, and otherwise as lost
+/// (docs/protocol.md, "A worker's life").
 void WorkerProtocol::say_goodbye(TimePoint now, const std::string& reason) {
   pb::ToCoordinator message;
   message.mutable_goodbye();
@@ -263,6 +286,7 @@ void WorkerProtocol::on_tick(TimePoint now) {
   // silence is measured by its clock (orchestration facts, 5 "Heartbeats, both ways").
   if (now - ticked_ > dead_after_ / 2) last_heard_ = now;
   ticked_ = now;
+  // Also without a connection: slots go on with the tasks that they have.
   if (state_ != State::Left) begin_alone(now);
   switch (state_) {
     case State::Left:
@@ -280,6 +304,8 @@ void WorkerProtocol::on_tick(TimePoint now) {
     case State::Active:
       break;
   }
+  // The transport reports a closed connection; silence shows a host or a link that is dead, or a
+  // coordinator that hangs (orchestration facts, 5 "Heartbeats, both ways").
   if (now - last_heard_ > dead_after_) return lose(now);
   if (!has_scenario_ && now - asked_ >= kAskAgain) {
     asked_ = now;

@@ -26,6 +26,8 @@ class Loop {
   Loop(const WorkerServiceOptions& options, const WorkerIdentity& identity, Pool& pool,
        Wakeup& wakeup)
       : socket_(options.endpoint, options.socket, options.keys),
+        // Pauses before a new connection must differ between workers. No result depends on these
+        // numbers.
         protocol_(identity, options.protocol, Rng(std::random_device{}())),
         endpoint_(options.endpoint),
         find_(options.find),
@@ -131,6 +133,7 @@ class Loop {
                      }},
           event);
     }
+    // From now on the loop comes back by itself (`time_left`), and slots need not wake it.
     busy_ = any_result;
     carry_out();
   }
@@ -148,6 +151,8 @@ class Loop {
     std::visit(Overloaded{[&](OpenConnection) { connect(); },
                           [&](const SendToCoordinator& send) { this->send(send.frame); },
                           [&](const UseScenario& use) {
+                            // A scenario is input from outside: this program may lack its flavour,
+                            // its program or its engine.
                             const Expected<void> used = pool_->use(use.scenario);
                             if (!used) protocol_.on_bad_scenario(to_string(used.error()));
                           },
@@ -165,6 +170,7 @@ class Loop {
                             if (end_) return;
                             end_ = WorkerEnd{leave.code, std::move(leave.reason)};
                             const bool alone = leave.code == WorkerExit::Unreachable;
+                            // "No coordinator" alone would hide a refused key.
                             if (alone && !trouble_.empty()) end_->reason += ": " + trouble_;
                           }},
                action);

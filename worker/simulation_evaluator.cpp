@@ -34,6 +34,8 @@ class Simulation {
 
  private:
   Expected<Result> simulate_item(const LeasedTask& item) {
+    // A task comes from outside; numbers that do not exist are a failure of the task, not of this
+    // process.
     if (item.mission >= scenario_.missions.size() || item.method >= flavours_.size()) {
       return bad_input("a task for a mission or method that the scenario does not have");
     }
@@ -44,6 +46,7 @@ class Simulation {
     const Flavour& flavour = flavours_[item.method];
     const Expected<const Controller*> controller = controller_of(item);
     if (!controller) return Unexpected(controller.error());
+    // The seed alone determines the instance, so all workers simulate the same one.
     const Expected<Instance> instance = instance_of(mission, item.seed);
     if (!instance) return Unexpected(instance.error());
     return Result{.measured = simulate({.controller = **controller,
@@ -54,17 +57,20 @@ class Simulation {
                                         .seed = item.seed})};
   }
 
+  /// 0 is the profile of the campaign; the others are those of repeated tests.
   const Profile& profile_of(const LeasedTask& item) const {
     return item.profile == 0 ? scenario_.profile : scenario_.test_profiles[item.profile - 1];
   }
 
   Expected<const Controller*> controller_of(const LeasedTask& item) {
+    // By method, because the same text may mean other control software in another flavour.
     auto& known = controllers_[item.method];
     if (const auto at = known.find(item.machine); at != known.end()) return &at->second;
     Expected<Controller> controller = parse_controller(item.machine, flavours_[item.method]);
     if (!controller) return Unexpected(controller.error());
     if (const auto complaint = complaint_about_running(*controller, flavours_[item.method]))
       return bad_input(*complaint);
+    // All of them: a race goes on with the candidates that are alive, and parses them once more.
     if (known.size() >= kMaxControllers) known.clear();
     return &known.emplace(item.machine, std::move(*controller)).first->second;
   }
@@ -88,6 +94,8 @@ int engine_version_of(const WorkerScenario& scenario) {
 }  // namespace
 
 Expected<Evaluator> make_simulation_evaluator(WorkerScenario scenario) {
+  // Another version may give other bits. One score of it would make the campaign's answer depend on
+  // which worker was faster.
   if (const int own = engine_version_of(scenario); scenario.engine_version != own) {
     return unexpected(ErrorKind::Conflict,
                       "the campaign needs version " + std::to_string(scenario.engine_version) +

@@ -13,6 +13,7 @@ void AheadTasks::expect(std::vector<Experiment> experiments, std::int64_t pairs)
 }
 
 const Experiment* AheadTasks::next() {
+  // Each experiment once in a step, also if `expect` has made the list longer meanwhile.
   return seen_ < expected_.size() ? &expected_[seen_++] : nullptr;
 }
 
@@ -30,6 +31,7 @@ std::optional<double> AheadTasks::remove(const EvaluationKey& key) {
 }
 
 void AheadTasks::want(const EvaluationKey& key) {
+  // A drop that was not taken yet is withdrawn: the coordinator would delete a task that is wanted.
   if (remove(key)) std::erase(dropped_, key);
 }
 
@@ -39,6 +41,7 @@ void AheadTasks::end_step(std::span<const std::int64_t> alive) {
   pairs_ = 0;
   seen_ = 0;
   for (auto& [packed, task] : tasks_) {
+    // The race may still ask for tasks of candidates that are alive.
     if (task.dropped || std::ranges::binary_search(alive, number_of(task.key.candidate))) continue;
     task.dropped = true;
     dropped_.push_back(task.key);

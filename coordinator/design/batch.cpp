@@ -10,6 +10,7 @@
 namespace swarmsmith {
 namespace {
 
+/// A rejection has an infinite cost, as in irace (irace facts, 12).
 constexpr double kRejected = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -33,6 +34,8 @@ void Batch::await(std::size_t position, const EvaluationKey& key) {
 }
 
 StoredScore Batch::answer(const Outcome& outcome) {
+  // Outcomes come in any order; the position gives each its place in the search's order, so that
+  // the search does not depend on the workers (orchestration facts, 9).
   const auto found = awaited_.find(packed_key(outcome.key));
   SWARMSMITH_ASSERT(found != awaited_.end(), "an outcome comes once, and only when wanted");
   const std::size_t position = found->second;
@@ -54,6 +57,8 @@ std::vector<Experiment> Batch::let_go() {
 }
 
 std::vector<Measurement> Batch::measurements() const {
+  // A search never sees a part of a batch: which part is there depends on how fast the workers
+  // were.
   SWARMSMITH_ASSERT(is_complete(), "a search gets a batch as a whole");
   std::vector<Measurement> measurements;
   measurements.reserve(scores_.size());

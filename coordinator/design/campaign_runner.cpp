@@ -23,6 +23,7 @@ CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
     const DesignId id = plan.row.id;
     all_.push_back(id);
     if (std::ranges::find(finished, id) != finished.end()) {
+      // The pool need not remember its outcomes (`take_ended`).
       ended_.push_back(id);
       continue;
     }
@@ -48,6 +49,7 @@ std::vector<Task> CampaignRunner::take_tasks() {
 /// (orchestration facts, 10).
 std::vector<Task> CampaignRunner::take_more(std::size_t count, std::size_t slots) {
   std::vector<Task> more = take_tasks();
+  // Decision 8 has the reasons for these steps and their limits.
   open_more(count, std::min(most_.at_most, slots / kSlotsOfADesign), more);
   look_ahead(count, 1, more);
   open_more(count, most_.at_most, more);
@@ -68,6 +70,7 @@ void CampaignRunner::look_ahead(std::size_t count, std::int64_t pairs, std::vect
   std::vector<DesignRunner*> designs;
   for (auto& [id, design] : open_)
     designs.push_back(&design);
+  // The design nearest to its barrier first: its slots would idle soonest (decision 8).
   std::ranges::stable_sort(designs, {}, &DesignRunner::awaited);
   for (DesignRunner* design : designs) {
     if (tasks.size() >= count) return;
@@ -104,6 +107,8 @@ void CampaignRunner::tell(const Outcome& outcome) {
   } else if (const auto kept = kept_.find(id); kept != kept_.end()) {
     kept->second.tell(outcome, rows_);
   } else {
+    // The design is over and forgotten. The score is stored without an iteration, so it is not part
+    // of the answer.
     const auto late = late_.extract(outcome.key);
     SWARMSMITH_ASSERT(!late.empty(), "outcomes belong to tasks that were given");
     rows_.emplace_back(evaluation_row(outcome, 0, late.mapped().bound, late.mapped().source));
@@ -124,11 +129,13 @@ void CampaignRunner::put_away(DesignId id) {
   auto ended = open_.extract(id);
   SWARMSMITH_ASSERT(!ended.empty(), "a design that is over was open");
   std::ranges::copy(ended.mapped().take_dropped(), std::back_inserter(dropped_));
+  // A stopped design takes no more commands, so it need not stay in memory.
   if (ended.mapped().state() != DesignState::Finished) return forget(ended.mapped());
   kept_.insert(std::move(ended));
   kept_order_.push_back(id);
   SWARMSMITH_ASSERT(kept_order_.size() == kept_.size(),
                     "every kept design is in the order of removal");
+  // The oldest first; `OpenDesigns` has the limits.
   while (keeps_too_many()) {
     forget(kept_.extract(kept_order_.front()).mapped());
     kept_order_.erase(kept_order_.begin());
@@ -157,6 +164,7 @@ void CampaignRunner::open(std::map<DesignId, Waiting>::iterator next) {
     error_ = runner.error();
     return;
   }
+  // Once open, a design first replays its stored part, within `advance`.
   const auto [placed, fresh] = open_.emplace(waiting.key(), std::move(*runner));
   SWARMSMITH_ASSERT(fresh, "a design is opened once");
   advance(placed->second);
@@ -165,6 +173,7 @@ void CampaignRunner::open(std::map<DesignId, Waiting>::iterator next) {
 void CampaignRunner::open_designs() {
   while (!error_ && open_.size() < most_.at_least && !waiting_.empty())
     open(waiting_.begin());
+  // Once: an extension of a design that is kept sets it back.
   if (finished() && !state_recorded_) {
     state_recorded_ = true;
     rows_.emplace_back(CampaignStateRow{.state = "finished"});
@@ -189,6 +198,7 @@ Expected<void> CampaignRunner::carry_out(const CommandRow& command) {
     return bad_input("name at least one design, such as d1", std::string(word_of(command.kind)));
   if (const auto waiting = waiting_.find(id); waiting != waiting_.end())
     return command_waiting(waiting, command);
+  // A finished design that is still in memory goes on from its end.
   if (const auto kept = kept_.find(id); kept != kept_.end()) {
     if (auto taken = kept->second.command(command, rows_); !taken) return taken;
     std::erase(kept_order_, id);
@@ -215,6 +225,7 @@ Expected<void> CampaignRunner::command_waiting(std::map<DesignId, Waiting>::iter
   plan.commands.push_back(command);
   plan.commands.back().step.reset();
   rows_.emplace_back(plan.commands.back());
+  // An extension waits with its design.
   if (command.kind == CommandKind::Cancel) open(found);
   open_designs();
   if (error_) return Unexpected(*error_);
@@ -270,6 +281,7 @@ std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& score
   };
   for (const StoredScore& score : scores) {
     const DesignId id = design_of(score.key.candidate);
+    // A design that needs nothing more is not replayed, so its scores are not kept in memory.
     if (skipped(id)) continue;
     StoredDesign& design = designs[id];
     if (auto* known = scores_of(design, score.key.purpose))

@@ -32,6 +32,8 @@ Expected<void> DesignRunner::advance(std::vector<Task>& tasks, std::vector<Row>&
   const auto gone_on = go_on(tasks);
   recorder_.move_rows_to(rows);
   if (!gone_on) return gone_on;
+  // Calls of a targetEvaluator are made one at a time (irace facts, 18.4), so `go_on` only queues
+  // them.
   if (auto call = calls_.next()) tasks.push_back(std::move(*call));
   return {};
 }
@@ -53,6 +55,8 @@ Expected<void> DesignRunner::go_on(std::vector<Task>& tasks) {
       recorder_.set_state(DesignState::Finished);
       recorder_.record_state();
     }
+    // Only after the tests: an extension continues from the end of the race and its tests
+    // (docs/irace.md, "More budget, and an early end").
     const auto extended = extend(tasks);
     if (!extended) return Unexpected(extended.error());
     if (!*extended) return {};
@@ -73,6 +77,7 @@ Expected<void> DesignRunner::begin(std::vector<Task>& tasks) {
 
 Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks) {
   for (;;) {
+    // Before the batch is looked at: a cancel does not wait for its outcomes.
     if (is_cancelled()) {
       cancel(tasks);
       return {};
@@ -81,6 +86,7 @@ Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks) {
     if (fault_) return Unexpected(*fault_);
     SWARMSMITH_ASSERT(search_, "only a search races");
     if (search_->finished()) return finish_race(tasks);
+    // The loop goes on without a worker as long as all scores are known: this is the replay.
     if (auto told = tell_race(); !told) return told;
     want_batch(tasks);
     ahead_.end_step(search_->alive());
@@ -89,6 +95,7 @@ Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks) {
 
 Expected<void> DesignRunner::finish_race(std::vector<Task>& tasks) {
   const bool goes_on = commands_.next(CommandKind::Extend, recorder_.steps()) != nullptr;
+  // The store has further steps, but this race is over: it is another race.
   if (recorder_.is_replaying() && !goes_on) return Unexpected(recorder_.other_step());
   if (search_->failure()) {
     recorder_.set_state(DesignState::Stopped);
@@ -105,6 +112,8 @@ Expected<void> DesignRunner::finish_race(std::vector<Task>& tasks) {
 bool DesignRunner::finish_tests(std::vector<Task>& tasks) {
   if (!batch_.is_complete()) return false;
   if (!plan_.scenario.target_evaluator) return true;
+  // The targetEvaluator is asked about the tests when all of them have run, as in a task of the
+  // race.
   if (!calls_.are_tests_begun()) want_test_calls(tasks);
   return batch_.is_complete();
 }
@@ -121,6 +130,8 @@ Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>
     }
   } else if (state() == DesignState::Finished) {
     SWARMSMITH_ASSERT(search_, "a design without a search takes no commands");
+    // Refused now, when the operator sees it. During the race the remaining budget is not known
+    // yet.
     const auto least = search_->least_extension();
     if (!least) return Unexpected(least.error());
     if (command.budget < *least) {
@@ -207,6 +218,7 @@ void DesignRunner::want_batch(std::vector<Task>& tasks) {
     if (experiment.is_evaluation) {
       experiment.pair = calls_.pair_in_race(experiment.task);
     } else {
+      // A pair's instance and seed stay those of its first use.
       pairs_.try_emplace(experiment.pair, experiment);
     }
     recorder_.record_pair(purpose, experiment);
@@ -257,15 +269,20 @@ void DesignRunner::want_test_calls(std::vector<Task>& tasks) {
 void DesignRunner::want(std::size_t position, const EvaluationKey& key,
                         const Experiment& experiment, std::vector<Task>& tasks) {
   const StoredScore* stored = scores_.stored(key);
+  // The race would have bounded this run differently, so the stored race is another one.
   if (stored != nullptr && stored->bound != experiment.bound && !fault_)
     fault_ = recorder_.other_step();
+  // Keys have a limited number of digits for the pair.
   if (key.pair >= kPairsPerCandidate && !fault_) fault_ = beyond("pairs", kPairsPerCandidate - 1);
+  // A known score is never evaluated again. This is the replay, and the use of what was computed
+  // ahead.
   if (const auto score = scores_.take(key)) {
     batch_.put(position, *score);
     if (key.purpose == Purpose::Race) recorder_.record_use(*score);
     return;
   }
   batch_.await(position, key);
+  // It may be with a worker already, as look-ahead: then the pool promotes it.
   if (key.purpose == Purpose::Race) ahead_.want(key);
   Task task = task_of(key, experiment);
   if (experiment.is_evaluation) {
@@ -315,6 +332,7 @@ std::string DesignRunner::call_of(std::int64_t number) const {
 
 void DesignRunner::tell(const Outcome& outcome, std::vector<Row>& rows) {
   if (outcome.key.purpose == Purpose::Race) {
+    // The race does not wait for it. It is stored without an iteration, until the race asks for it.
     if (const auto bound = ahead_.remove(outcome.key)) {
       scores_.keep(score_of(outcome, *bound));
       rows.emplace_back(evaluation_row(outcome, 0, *bound, plan_.source));
@@ -333,6 +351,7 @@ void DesignRunner::tell(const Outcome& outcome, std::vector<Row>& rows) {
 
 void DesignRunner::look_ahead(std::size_t count, std::int64_t pairs, std::vector<Task>& tasks,
                               std::vector<Row>& rows) {
+  // Tests are all wanted at once, so there is nothing ahead of them.
   if (state() != DesignState::Racing) return;
   if (pairs > ahead_.pairs_expected()) ahead_.expect(search_->ahead(pairs), pairs);
   while (count > 0) {
@@ -405,6 +424,7 @@ Expected<void> DesignRunner::take_events() {
 }
 
 Expected<void> DesignRunner::add_candidate(const ConfigurationSampled& sampled) {
+  // Ids of candidates have a limited number of digits within a design.
   if (sampled.id > kCandidatesPerDesign)
     return Unexpected(beyond("candidates", kCandidatesPerDesign));
   CandidateText text = plan_.describe(sampled.configuration);
@@ -441,6 +461,8 @@ void DesignRunner::count_used(const std::vector<std::pair<std::int64_t, std::int
   if (plan_.scenario.target_evaluator) return count_judged();
   for (const auto& [configuration, pair] : used) {
     const EvaluationKey key{recorder_.candidate(configuration), Purpose::Race, pair};
+    // A race reports the runs that it used in the order in which it asked for them. With capping it
+    // may have asked for runs that it does not use.
     while (!given_.empty() && given_.front().key != key) {
       leave_unused(given_.front());
       given_.pop_front();

@@ -9,6 +9,7 @@
 namespace swarmsmith {
 namespace {
 
+/// As the seeds of irace's pairs (irace facts, 4).
 constexpr std::int64_t kLargestSeed = 2'147'483'647;
 
 }  // namespace
@@ -29,6 +30,8 @@ void EliteTests::test_all(std::vector<std::int64_t> given) {
 Experiment EliteTests::run(std::int64_t candidate, std::int64_t pair) const {
   SWARMSMITH_ASSERT(plan_.count > 0 && pair >= 1, "tests count from 1");
   SWARMSMITH_ASSERT(plan_.on_test_instances || n_instances_ >= 1, "a test is on an instance");
+  // The seed depends on the test alone: all candidates, and all profiles, meet the same random
+  // numbers, so their differences are paired.
   const std::int64_t test = (pair - 1) % plan_.count + 1;
   Rng rng = Rng(seed_).split("test", static_cast<std::uint64_t>(test));
   return {.configuration = candidate,
@@ -63,6 +66,7 @@ std::vector<Experiment> EliteTests::calls() const {
     for (const std::int64_t candidate : tested_) {
       Experiment call = run(candidate, test);
       call.instance = -call.instance;
+      // Calls are not runs of the target, so no bound of time applies to them.
       call.bound = 0;
       call.is_evaluation = true;
       calls.push_back(call);
@@ -74,12 +78,14 @@ std::vector<Experiment> EliteTests::calls() const {
 std::vector<std::int64_t> EliteTests::chosen() const {
   std::vector<std::int64_t> numbers;
   const auto add = [&](const std::vector<std::int64_t>& elites) {
+    // Irace facts, 15: testNbElites and testIterationElites; each configuration is tested once.
     const auto most = std::min(elites.size(), static_cast<std::size_t>(plan_.elites));
     for (std::size_t i = 0; i < most; ++i) {
       if (std::ranges::find(numbers, elites[i]) == numbers.end()) numbers.push_back(elites[i]);
     }
   };
   if (elites_.empty()) return numbers;
+  // First, so that the best candidate of the whole run is the first one tested.
   add(elites_.back());
   if (!plan_.every_iteration) return numbers;
   for (const auto& elites : elites_)

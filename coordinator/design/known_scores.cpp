@@ -26,10 +26,13 @@ const StoredScore* KnownScores::stored(const EvaluationKey& key) const {
 
 std::optional<StoredScore> KnownScores::take(const EvaluationKey& key) {
   const std::uint64_t packed = packed_key(key);
+  // A score that is asked for leaves the stored ones. The rest was never asked for; if such a score
+  // counts in the store, `verify` reports it.
   if (auto score = asked_scores_of(stored_, key.purpose).extract(packed)) {
     if (is_of_tests(key.purpose)) return tested_.insert(std::move(score)).position->second;
     return score.mapped();
   }
+  // Computed ahead, or wanted by the race before and not used.
   if (key.purpose == Purpose::Race) {
     if (const auto score = unused_.extract(packed)) return score.mapped();
   }
@@ -43,6 +46,7 @@ void KnownScores::keep(StoredScore score) {
   SWARMSMITH_ASSERT(score.key.purpose != Purpose::Evaluator,
                     "a targetEvaluator is asked again, since others are alive");
   const std::uint64_t packed = packed_key(score.key);
+  // No iteration uses it now; the race sets it when it asks again.
   score.iteration = 0;
   (score.key.purpose == Purpose::Race ? unused_ : tested_).emplace(packed, score);
 }

@@ -18,8 +18,10 @@ using SharedSpace = std::shared_ptr<const MethodSpace>;
 /// Uses the given control software instead of a search.
 Expected<void> put_baseline(DesignPlan& plan, const Method& method) {
   if (method.baseline.empty()) return {};
+  // There is nothing to search for; the given control software is only tested.
   plan.only_test = true;
   if (method.baseline == kRandomMachine) {
+    // A stream of its own: the same design draws the same machine, whatever else uses the seed.
     Rng rng = Rng(plan.scenario.seed).split("random machine");
     auto drawn = sample_uniform(plan.space, rng);
     if (!drawn) return Unexpected(drawn.error());

@@ -38,6 +38,7 @@ void compare_steps(const std::vector<Row>& rows, const Digests& found,
     const auto* step = std::get_if<RaceStepRow>(&row);
     if (step == nullptr) continue;
     const auto known = found.find({step->design, step->step});
+    // Recovered steps have gaps; a step that was lost cannot contradict.
     if (known == found.end() || known->second == step->digest) continue;
     complaints.push_back(
         fmt::format("{}: the scores give another step {} than the stored one: a score in it, or "
@@ -54,7 +55,10 @@ void rebuild_design(DesignPlan plan, StoredDesign stored, const Digests& steps, 
     result.complaints.push_back(fmt::format("{}: {}", to_string(id), to_string(error)));
     result.designs.push_back(design);
   };
+  // After a loss, which scores a race used cannot be trusted: a score before them may be missing,
+  // and then the race has not reached them yet.
   const std::int64_t used_before = forget_iterations(stored.race_scores);
+  // The recovered digests are not among the stored data: they have gaps.
   auto runner = DesignRunner::start(std::move(plan), std::move(stored));
   if (!runner) return complain(runner.error());
   std::vector<Task> tasks;
@@ -70,6 +74,7 @@ void rebuild_design(DesignPlan plan, StoredDesign stored, const Digests& steps, 
   design.state = runner->state();
   design.used = runner->used();
   design.ahead = std::max<std::int64_t>(0, used_before - std::ranges::count_if(rows, is_use));
+  // The replay stops where scores are missing; the campaign continues from here.
   design.missing = tasks.size();
   result.designs.push_back(design);
   std::ranges::move(rows, std::back_inserter(result.derived.rows));
@@ -83,6 +88,7 @@ Rebuilt rebuild(std::vector<DesignPlan> plans, const std::vector<StoredScore>& s
   for (const StoredStep& step : steps)
     found[{step.design, step.step}] = step.digest;
   std::vector<CommandRow> acted = commands;
+  // A command that waits has changed nothing yet.
   std::erase_if(acted, [](const CommandRow& command) { return !command.step; });
   auto stored = by_design(scores, {}, {});
   Rebuilt result;

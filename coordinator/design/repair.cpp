@@ -45,6 +45,7 @@ Repair repair_by(const std::string& program, const std::string& folder,
     const auto table = print_configurations_file(parameters, std::span(&given, 1));
     if (!table) return Unexpected(table.error());
     // `run_process` gives programs no input, so a shell pipes the configuration in.
+    // Irace facts, 8.5: in irace the repair is an R function; here a program takes its place.
     const ProcessCall call{
         .words = {"/bin/sh", "-c", R"(printf '%s' "$1" | "$0")", program, *table},
         .folder = folder};

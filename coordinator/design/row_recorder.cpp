@@ -109,6 +109,8 @@ Expected<void> RowRecorder::record_step(const RaceStep& step) {
                           .reason = reason_text(elimination.reason)});
   }
   record_state();
+  // Resume is replay (decision 3): a different step means that the store was written by another
+  // engine, or was changed, and the race must not continue from it.
   if (is_replaying() && step_digests_[steps_] != step.digest) return Unexpected(other_step());
   ++steps_;
   return {};
@@ -126,6 +128,7 @@ void RowRecorder::record_end(const IterationEnded& ended) {
                     .mean = to_score(elite.mean),
                     .runs = elite.n});
   }
+  // Survivors of the race that are not among its elites (irace facts, 13).
   for (const std::int64_t number : alive_) {
     if (elites.contains(number)) continue;
     record(EliminationRow{.candidate = candidate(number),
@@ -133,6 +136,7 @@ void RowRecorder::record_end(const IterationEnded& ended) {
                           .step = steps(),
                           .reason = "not kept"});
   }
+  // The next race begins with them.
   alive_ = std::move(elites);
   if (!ended.elites.empty()) {
     design_.best = candidate(ended.elites.front().configuration);
@@ -165,6 +169,8 @@ void RowRecorder::record_command(CommandRow command) {
 
 void RowRecorder::record_pair(Purpose purpose, const Experiment& experiment) {
   std::int64_t& last = pairs_[purpose];
+  // Experiments of one pair follow each other, and a pair that was looked at ahead has its row
+  // already.
   if (experiment.pair <= last) return;
   last = experiment.pair;
   record(PairRow{.design = design_.design,
@@ -175,6 +181,7 @@ void RowRecorder::record_pair(Purpose purpose, const Experiment& experiment) {
 }
 
 void RowRecorder::record_use(const StoredScore& score) {
+  // It is a part of the race already.
   if (score.iteration != 0) return;
   record(EvaluationRow{.key = score.key,
                        .iteration = counted_iteration(),
@@ -218,6 +225,7 @@ void RowRecorder::move_rows_to(std::vector<Row>& rows) {
 }
 
 void RowRecorder::record(Row row) {
+  // The rows up to the last stored step are in the store already.
   if (!is_replaying()) rows_.push_back(std::move(row));
 }
 

@@ -59,6 +59,7 @@ std::optional<DesignId> design_of(const Row& row) {
 }
 
 void add(const Row& row, DesignAnswer& answer) {
+  // Rows about workers, attempts and events differ between runs of one campaign.
   if (!in_answer(row)) return;
   if (const auto* state = std::get_if<DesignStateRow>(&row)) {
     answer.state = *state;
@@ -78,6 +79,7 @@ void add(const Row& row, DesignAnswer& answer) {
 }
 
 void add_stepped_pairs(DesignAnswer& answer) {
+  // Look-ahead may record pairs that the race never reaches.
   for (const auto& [number, row] : answer.pairs) {
     if (answer.stepped.contains(number)) answer.rows.push_back(row);
   }
@@ -90,6 +92,8 @@ std::int64_t add_candidates(DesignAnswer& stored, DesignAnswer& replayed, bool f
       replayed.candidates.empty() ? CandidateId{} : replayed.candidates.rbegin()->first;
   std::int64_t later = 0;
   for (const auto& [id, row] : stored.candidates) {
+    // Candidates up to the last replayed one must follow from the scores; later ones come after a
+    // gap.
     if (!finished && id > last) {
       ++later;
     } else {
@@ -124,6 +128,7 @@ void compare_finished(DesignAnswer& stored, DesignAnswer& replayed, const std::s
                                      name, to_string(candidate), row));
     if (complaints.size() > kComplaintsPerDesign) break;
   }
+  // The last row is compared as a whole: state, best candidate, its mean, and the budget used.
   if (!replayed.state || !same_answer(*stored.state, *replayed.state)) {
     complaints.push_back(
         fmt::format("{}: the store ends with {}, its scores with {}", name, describe(*stored.state),
@@ -164,6 +169,8 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
                    std::vector<std::string>& complaints) {
   const std::string name = to_string(plan.row.id);
   const bool finished = is_over(stored.state, plan);
+  // The race is made again from its seed and the stored scores (decision 3). The step digests are
+  // not given, so each row is compared, and not only the first step that differs is reported.
   auto runner = DesignRunner::start(std::move(plan), std::move(scores));
   if (!runner) {
     complaints.push_back(fmt::format("{}: {}", name, to_string(runner.error())));
@@ -194,6 +201,7 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
         "{}: the design is finished, but {} missing, the first is {}", name,
         counted(tasks.size(), "evaluation is", "evaluations are"), to_string(tasks.front().key)));
   }
+  // Also in an unfinished design: what is stored must follow from the scores that are stored.
   for (const std::string& row : missing_from(replayed.rows, stored.rows)) {
     complaints.push_back(
         fmt::format("{}: the store has a row that does not follow from its scores: {}", name, row));
@@ -216,6 +224,7 @@ void complain_of_conflicts(StoreReader& store, std::vector<std::string>& complai
       "WHERE NOT EXISTS (SELECT 1 FROM attempt AS a WHERE a.candidate = c.candidate AND a.purpose "
       "= "
       "c.purpose AND a.pair = c.pair AND a.outcome = 'audited') ";
+  // The table of attempts came with this schema; older stores have no such evidence.
   constexpr std::int64_t kWithAttempts = 3;
   const std::string which = store.schema() < kWithAttempts ? "" : kUnsettled;
   const auto found = store.query(
@@ -300,9 +309,11 @@ Expected<Verification> verify(StoreReader& store) {
   result.real_runs = verify_real_runs(store, result.complaints);
   const std::vector<StoredCampaign> campaigns = store.campaigns();
   for (const StoredCampaign& campaign : campaigns) {
+    // It has no race that could be replayed.
     if (campaign.state == "imported") continue;
     const auto alone = store.alone(campaign.id);
     auto plans = plans_of(campaign.row);
+    // One campaign that cannot be replayed must not hide the complaints about the others.
     if (!plans && campaigns.size() == 1) return Unexpected(plans.error());
     Verification found;
     if (plans) {
@@ -324,6 +335,8 @@ Expected<Verification> verify(StoreReader& store) {
 Expected<std::vector<DesignPlan>> plans_of(const CampaignRow& row) {
   const auto campaign = parse_campaign(row.file, "the store's campaign file");
   if (!campaign) return Unexpected(campaign.error().front());
+  // With another meaning of the file, a replay would report differences that are no faults of the
+  // store.
   if (campaign_digest(*campaign) != row.digest) {
     return unexpected(ErrorKind::Conflict,
                       "the store was written by another version of the engine (or its campaign was "

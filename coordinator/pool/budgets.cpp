@@ -8,6 +8,8 @@
 namespace swarmsmith {
 namespace {
 
+/// Rough overhead of a row and of its line in the log: the budgets are limits of size, not
+/// accounts.
 constexpr std::size_t kRowBytes = 100;
 constexpr std::size_t kLineBytes = 100;
 
@@ -26,14 +28,19 @@ Budgets::Budgets(const BudgetOptions& options)
       commands_(options.commands) {}
 
 bool Budgets::may_write(const Source& source, std::size_t bytes, TimePoint now) {
+  // Principals with results have budgets of their own, which strangers cannot use up. A stranger
+  // needs room in its own budget and in that of all strangers, since it may come under many
+  // addresses.
   const auto amount = static_cast<double>(bytes);
   if (!source.is_stranger) return rows_of_known_.of(source.principal, now).take(amount, now);
+  // Asked before it is taken, so that a full common budget does not use up the stranger's own.
   return rows_of_strangers_.has(amount, now) &&
          rows_of_stranger_.of(source.principal, now).take(amount, now) &&
          rows_of_strangers_.take(amount, now);
 }
 
 bool Budgets::may_say_hello(PeerId peer, const Source& source, TimePoint now) {
+  // docs/security.md, "Budgets".
   const bool may = hellos_of_peer_.of(std::to_string(peer), now).take(1, now) &&
                    hellos_of_principal_.of(source.principal, now).take(1, now) &&
                    (!source.is_stranger || hellos_of_strangers_.take(1, now));
@@ -42,6 +49,7 @@ bool Budgets::may_say_hello(PeerId peer, const Source& source, TimePoint now) {
 }
 
 bool Budgets::may_be_sent(PeerId peer, std::size_t bytes, TimePoint now) {
+  // A single answer may be larger than the burst; it then needs the full budget, and empties it.
   const double amount = std::min(static_cast<double>(bytes), options_.answer_bytes.burst);
   const bool may = answer_bytes_.has(amount, now) &&
                    answers_of_peer_.of(std::to_string(peer), now).take(1, now) &&
@@ -57,6 +65,7 @@ void Budgets::leave_out(std::string_view kind) {
 
 std::vector<EventRow> Budgets::take_news(TimePoint now, bool now_or_never) {
   std::vector<EventRow> news;
+  // Reports are rows, too: one per kind and interval, whatever is left out.
   if ((now < tell_again_ && !now_or_never) || left_out_ == told_) return news;
   tell_again_ = now + options_.tell_every;
   for (const auto& [kind, count] : left_out_) {

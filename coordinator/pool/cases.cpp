@@ -13,8 +13,11 @@ void Cases::open(Task task, std::optional<Said> said, bool audit) {
   const auto [at, fresh] = open_.try_emplace(key);
   Case& it = at->second;
   if (said) it.said.push_back(std::move(*said));
+  // From here the case is new, or it was an audit and a design now waits for it. A case that a
+  // design waits for never becomes an audit.
   if (!fresh && (audit || !it.audit)) return;
   it.audit = audit;
+  // The referee is evaluating it already.
   if (out_ == key) return;
   if (fresh) {
     it.task = std::move(task);
@@ -25,6 +28,7 @@ void Cases::open(Task task, std::optional<Said> said, bool audit) {
 }
 
 std::optional<Task> Cases::next() {
+  // One case at a time. Audits wait: no design needs them to continue.
   std::deque<PackedKey>& queue = urgent_.empty() ? audits_ : urgent_;
   if (out_ || queue.empty()) return std::nullopt;
   SWARMSMITH_ASSERT(open_.contains(queue.front()),
@@ -37,6 +41,7 @@ std::optional<Task> Cases::next() {
 std::optional<Case> Cases::close(PackedKey key) {
   if (out_ == key) out_.reset();
   auto found = open_.extract(key);
+  // Its campaign was stopped while the referee evaluated it.
   if (!found) return std::nullopt;
   std::erase(urgent_, key);
   std::erase(audits_, key);

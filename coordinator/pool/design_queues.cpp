@@ -23,6 +23,7 @@ DesignQueues::Design& DesignQueues::design(PoolDesign id) {
   const auto [at, is_new] = designs_.try_emplace(id);
   if (is_new) {
     at->second.id = id;
+    // Its design or campaign may have been held before its first task came.
     at->second.held = is_held(id);
   }
   return at->second;
@@ -89,6 +90,8 @@ void DesignQueues::erase(Design& design, bool ahead, Place place) {
 /// Look-ahead is not charged, because it uses slots that would idle. `had_us_` is the virtual time
 /// of start-time fair queueing, which never decreases.
 void DesignQueues::on_leased(Design& design, bool ahead, std::uint64_t cost_us) {
+  // Before the charge: of all designs with work, the one that has had least sets the level at which
+  // others join.
   if (!ahead && !by_had_.empty()) had_us_ = std::max(had_us_, by_had_.begin()->rank);
   change(design, [&] {
     ++(ahead ? design.ahead_leased : design.wanted_leased);
@@ -116,6 +119,7 @@ void DesignQueues::hold(PoolDesign id, bool held) {
   } else {
     held_.erase(id);
   }
+  // A change for one design or for the campaign: each design is ready only if neither holds it.
   for (auto at = designs_.lower_bound({id.campaign, 0});
        at != designs_.end() && at->first.campaign == id.campaign; ++at) {
     Design& design = at->second;
@@ -151,6 +155,8 @@ void DesignQueues::forget(std::uint32_t campaign) {
 bool DesignQueues::is_urgent(const Design& design, std::size_t free,
                              std::uint64_t allowance_us) const {
   SWARMSMITH_ASSERT(!by_had_.empty(), "both orders hold the ready designs");
+  // The whole rest of its step can be sent now, and it is not too far ahead of the others by being
+  // urgent.
   return design.wanted.size() <= free && design.had_us <= by_had_.begin()->rank + allowance_us;
 }
 
@@ -164,6 +170,7 @@ std::optional<PackedKey> DesignQueues::next(std::size_t free, std::uint64_t allo
     if (!is_urgent(*at->design, free, allowance_us)) continue;
     if (const auto key = first_of(at->design->wanted, fits)) return key;
   }
+  // No design is near a barrier: the one that has had the least time.
   for (const Design::Ranked& ranked : by_had_) {
     if (const auto key = first_of(ranked.design->wanted, fits)) return key;
   }
@@ -171,6 +178,7 @@ std::optional<PackedKey> DesignQueues::next(std::size_t free, std::uint64_t allo
 }
 
 std::optional<PackedKey> DesignQueues::next_ahead(const Fits& fits) const {
+  // The design with the fewest leased look-ahead tasks, so that they are spread over the designs.
   for (const Design::Ranked& ranked : by_ahead_) {
     if (const auto key = first_of(ranked.design->ahead, fits)) return key;
   }

@@ -20,12 +20,14 @@ DesignId design_of_key(PackedKey key) {
 }  // namespace
 
 DoneEntry DoneTable::entry_of(PackedKey key, EvaluationStatus status, const Measured& measured) {
+  // All rejections are the same outcome, whatever a failed evaluation measured.
   if (status == EvaluationStatus::Rejected) return {key, kRejectedBits, 0};
   return {key, std::bit_cast<std::uint64_t>(measured.score), measured.state_digest};
 }
 
 std::size_t DoneTable::Outcomes::place_of(PackedKey key) const {
   SWARMSMITH_ASSERT(size < entries.size(), "the table always has a free place");
+  // The size is a power of two. Keys are mixed, because those of one design follow each other.
   const std::size_t mask = entries.size() - 1;
   std::size_t at = static_cast<std::size_t>(mix64(key)) & mask;
   while (entries[at].key != 0 && entries[at].key != key)
@@ -67,6 +69,7 @@ const DoneEntry* DoneTable::insert(PackedKey key, EvaluationStatus status,
                                    const Measured& measured) {
   SWARMSMITH_ASSERT(key != 0, "0 marks a free place");
   Outcomes& outcomes = at(campaign_of(key), design_of_key(key));
+  // A late outcome of a design that is over is not needed for any comparison.
   if (outcomes.closed) return nullptr;
   if (4 * (outcomes.size + 1) > 3 * outcomes.entries.size()) outcomes.grow();
   DoneEntry& entry = outcomes.entries[outcomes.place_of(key)];
@@ -93,6 +96,7 @@ void DoneTable::close(std::uint32_t campaign, DesignId design) {
 void DoneTable::close_candidates(std::uint32_t campaign, const PassedCandidates& passed) {
   Outcomes& outcomes = at(campaign, passed.design);
   if (outcomes.closed) return;
+  // Built anew: with linear probing, an entry that is erased would cut off those behind it.
   Outcomes left;
   left.passed_before = passed.before.value;
   left.kept = passed.kept;

@@ -42,16 +42,22 @@ std::uint64_t LeaseSigner::sign(PackedKey key, std::int64_t attempt, std::string
                                 std::uint64_t mark) const {
   std::array<unsigned char, 3 * kWord + kMostName> bytes;
   const std::size_t name = std::min(principal.size(), kMostName);
+  // Words of fixed size come first and the name last, so two different leases never give the same
+  // text (for names of up to kMostName bytes).
   put_word(bytes.data(), key);
   put_word(bytes.data() + kWord, static_cast<std::uint64_t>(attempt));
   put_word(bytes.data() + 2 * kWord, mark);
   if (name > 0) std::memcpy(bytes.data() + 3 * kWord, principal.data(), name);
   const std::uint64_t word = hash({bytes.data(), 3 * kWord + name}) >> kMarkBits;
+  // The mark stays readable, so `is_of` can compare it without knowing attempt and principal. 0
+  // means "no signature", hence at least 1.
   return std::max<std::uint64_t>(word, 1) | mark << (64 - kMarkBits);
 }
 
 std::uint64_t LeaseSigner::mark_of(const EvaluationInput& task) const {
   std::array<unsigned char, 5 * kWord> words;
+  // The input of the evaluation; its profile follows from the key. After a crash, the same key may
+  // be another machine (decision 19).
   put_word(words.data(), static_cast<std::uint64_t>(task.mission) << 32 | task.method);
   put_word(words.data() + kWord, static_cast<std::uint64_t>(task.instance));
   put_word(words.data() + 2 * kWord, static_cast<std::uint64_t>(task.seed));
@@ -70,6 +76,8 @@ std::uint64_t LeaseSigner::sign(const Task& task, std::int64_t attempt,
 bool LeaseSigner::is_ours(std::uint64_t signature, PackedKey key, std::int64_t attempt,
                           std::string_view principal) const {
   return signature != 0 &&
+         // With the mark that the signature itself has: the result may be of a task whose record is
+         // gone.
          signature == sign(key, attempt, principal, signature >> (64 - kMarkBits));
 }
 
@@ -87,6 +95,7 @@ std::uint64_t LeaseSigner::draw(PackedKey key) const {
 LeaseSecret lease_secret_of(std::string_view lasting, std::uint64_t scenario) {
   SWARMSMITH_ASSERT(sodium_init() >= 0, "libsodium works");
   std::array<unsigned char, kWord> bytes;
+  // Signatures of one scenario are worthless in another one.
   put_word(bytes.data(), scenario);
   const std::string text = std::string("swarmsmith leases ") + std::string(lasting);
   LeaseSecret secret{};

@@ -55,6 +55,8 @@ void LeaseTable::enter_queue(TaskRecord& record, bool at_front) {
 }
 
 void LeaseTable::leave_queue(TaskRecord& record) {
+  // The place is one of the queue that follows from the record's flags, so while a task is queued,
+  // they change only between `leave_queue` and `enter_queue`.
   SWARMSMITH_ASSERT(!record.lease, "a task in a queue has no lease");
   if (!is_special(record)) {
     queues_.erase(*record.design, record.task.ahead, record.place);
@@ -98,6 +100,7 @@ void LeaseTable::remove_all(std::uint32_t campaign) {
 
 void LeaseTable::promote(TaskRecord& record, TimePoint now) {
   SWARMSMITH_ASSERT(record.task.ahead, "only look-ahead is promoted");
+  // The race waits for it only from now on.
   record.added = now;
   if (!record.lease) {
     leave_queue(record);
@@ -123,6 +126,7 @@ bool LeaseTable::is_held(std::uint32_t campaign, std::int64_t design) const {
 
 TaskRecord* LeaseTable::next(WorkerNumber worker, bool skip_avoided, std::size_t free,
                              std::uint64_t allowance_us) {
+  // The first choice is a task that did not fail or take too long on this worker.
   const auto fits = [&](PackedKey key) { return !skip_avoided || find(key)->avoid != worker; };
   return found(queues_.next(free, allowance_us, std::cref(fits)));
 }
@@ -138,6 +142,7 @@ TaskRecord* LeaseTable::next_alone() {
 }
 
 std::size_t LeaseTable::wanted_of(PoolDesign id) const {
+  // These are in a queue of their own, but a race waits for them, too.
   const auto alone = std::ranges::count_if(alone_, [&](PackedKey key) {
     const PoolDesign of = pool_design_of(key);
     return of.campaign == id.campaign && (id.design == 0 || of.design == id.design);
@@ -166,6 +171,7 @@ void LeaseTable::grant(TaskRecord& record, WorkerNumber worker, TimePoint now,
                     "a granted task has no lease, and the referee does not have it");
   queues_.on_leased(*record.design, record.task.ahead, cost_us);
   leave_queue(record);
+  // Only the first wait: later ones include the time of lost attempts.
   if (record.attempts == 0 && !record.task.ahead) {
     meters(record.task.campaign).queue_wait.observe(now - record.added);
   }

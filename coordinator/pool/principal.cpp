@@ -15,6 +15,7 @@ std::string hexadecimal(const std::string& bytes) {
 }
 
 std::string principal_of(const WorkerHello& hello) {
+  // Not the address: all of loopback is one principal, and other users of this host have it, too.
   if (hello.local) return "local " + hexadecimal(hello.identity);
   const std::string network = network_of(hello.address);
   return hello.client.empty() ? network : hello.client + "@" + network;

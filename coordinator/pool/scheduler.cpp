@@ -33,6 +33,7 @@ void Scheduler::add(std::vector<Task> tasks) {
 void Scheduler::drop(std::span<const PackedKey> keys) {
   for (const PackedKey key : keys) {
     const TaskRecord* record = book_->leases.find(key);
+    // A leased one may be running: its result is still accepted.
     if (record != nullptr && record->task.ahead && !record->lease) book_->leases.remove(key);
   }
 }
@@ -86,6 +87,7 @@ void Scheduler::on_score(WorkerEntry& entry, const Result& result, TimePoint now
 void Scheduler::on_failure(WorkerEntry& entry, const Result& result, TimePoint now) {
   TaskRecord* record = book_->leases.find(result.key);
   const Lease* lease = record == nullptr ? nullptr : record->lease_of(entry.number);
+  // A failure of an earlier lease says nothing about the present one.
   if (lease == nullptr || (!lease->adopted && lease->attempt != result.attempt)) return;
   ++entry.failed;
   ++book_->counters.failed;
@@ -152,6 +154,8 @@ void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now
 }
 
 std::string Scheduler::objection_to(const WorkerHello& hello) const {
+  // Another version or self test may give other bits, so this worker must not evaluate anything
+  // (orchestration facts, 5 "Handshake").
   if (hello.engine_version != book_->options.engine_version) {
     return "this campaign runs with version " + std::to_string(book_->options.engine_version) +
            " of the simulator, the worker on " + hello.host + " has version " +
@@ -169,6 +173,7 @@ void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
   Principal& principal = trust_->principal_of(hello);
   WorkerEntry* entry = workers_->of_identity(principal.name, hello.identity);
   const WorkerEntry* holder = workers_->of_peer(peer);
+  // One connection is one worker.
   if (holder != nullptr && holder != entry) return;
   if (entry != nullptr && hello.incarnation <= entry->hello.incarnation) {
     // A repeated hello: the welcome may have been lost. From another connection, it is a replay.
@@ -264,6 +269,8 @@ WorkerEntry* Scheduler::heard(const Sender& sender, TimePoint now) {
     book_->act(SendWhoAreYou{sender.peer});
     return nullptr;
   }
+  // A message from before the last hello (docs/protocol.md, "What happens when a message is lost,
+  // doubled or late").
   if (entry->hello.incarnation != sender.incarnation) return nullptr;
   entry->last_heard = now;
   return entry;
@@ -316,6 +323,8 @@ void Scheduler::on_unreachable(PeerId peer, TimePoint now, std::span<const Packe
     if (record->second) record->copied = false;
     if (book_->leases.requeue(*record, entry->number)) ++book_->counters.requeued;
   }
+  // It was heard lately, so its connection was closed: the process died. Otherwise its host or
+  // network may have failed, which says less about its tasks (docs/protocol.md, "Who is blamed").
   const bool closed = now - entry->last_heard < book_->options.silence;
   lost_.lose(*entry, closed ? Loss::Death : Loss::Silence, WorkerState::Lost, now);
 }

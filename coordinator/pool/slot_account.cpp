@@ -36,6 +36,7 @@ IdleCause cause_without_ready(const LeaseTable& leases) {
 std::optional<IdleCause> cause_of(const Scheduler& scheduler, const WorkerEntry& worker,
                                   std::int64_t held, Holding holding,
                                   std::optional<IdleCause> without_ready) {
+  // The first cause that holds explains the idle slot.
   if (holding == Holding::Commit) return IdleCause::Commit;
   if (holding == Holding::Other || scheduler.held()) return IdleCause::Held;
   if (!worker.asked) return IdleCause::StartUp;
@@ -105,6 +106,7 @@ void SlotAccount::settle(Worker& worker, const WorkerEntry& entry, TimePoint now
   const double idle = slots - busy;
   SWARMSMITH_ASSERT(busy >= 0 && idle >= 0, "slot time is busy time and idle time");
   const double unleased = std::accumulate(worker.unleased.begin(), worker.unleased.end(), 0.0);
+  // Samples are estimates, and idle time is measured: the causes never get more than that.
   const double share = unleased > idle ? idle / unleased : 1.0;
   for (std::size_t i = 0; i < kIdleCauses; ++i)
     total_.idle[i] += share * worker.unleased[i];

@@ -25,6 +25,7 @@ void TaskBook::note(const char* severity, const char* kind,
 }
 
 void TaskBook::stop(std::uint32_t campaign, const std::string& reason, bool distrusted) {
+  // Only the first reason is reported; later ones are often its consequences.
   if (!stopped_.insert(campaign).second) return;
   // A program's output may be long; it is in the table of failures.
   note("error", "campaign stopped", {{"reason", reason.substr(0, reason.find('\n'))}}, campaign);
@@ -52,6 +53,7 @@ void TaskBook::note_attempt(TaskRecord& record, WorkerNumber worker, AttemptOutc
 void TaskBook::accept(const Outcome& outcome) {
   const PackedKey key = key_of(outcome);
   SWARMSMITH_ASSERT(done.find(key) == nullptr, "a task has one outcome");
+  // The lease and the outcome change together: a task is in the table, or it has an outcome.
   leases.remove(key, outcome.worker);
   done.insert(key, outcome.status, outcome.measured);
   CampaignMeters& meters = leases.meters(outcome.campaign);
@@ -74,6 +76,7 @@ void TaskBook::reject(TaskRecord& record, WorkerNumber worker, const std::string
   const EvaluationKey key = record.task.key;
   if (policy_of(record).stop_on_failure && record.task.ahead) {
     // The task may never be needed, so the campaign does not stop unless it is wanted.
+    // It goes to the shelf, and a race that asks for it later promotes it.
     if (record.lease_of(worker) != nullptr) leases.requeue(record, worker);
     if (!record.lease) leases.shelve(record);
     return;
@@ -104,6 +107,7 @@ void TaskBook::learn(std::uint32_t campaign, std::int64_t wall_us) {
 double TaskBook::estimate_us_of(std::uint32_t campaign) const {
   SWARMSMITH_ASSERT(campaign < estimates_us_.size(), "leases are of campaigns that run here");
   const double own = estimates_us_[campaign];
+  // Campaigns of one pool may have evaluations of very different length.
   return own > 0 ? own : estimate_us;
 }
 

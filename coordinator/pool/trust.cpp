@@ -36,6 +36,8 @@ Trust::Trust(TaskBook& book, WorkerRegistry& workers)
     Principal& principal = principals_.at(each.principal);
     const Principal::Cause cause{.reason = each.reason, .since = each.since};
     if (!each.identity.empty()) principal.liars.emplace(each.identity, cause);
+    // Quarantine lasts across restarts (decision 23). The third process puts the whole principal
+    // there.
     if (!each.identity.empty() && principal.liars.size() < Principal::kMostLiars) continue;
     principal.quarantined = true;
     principal.cause = cause;
@@ -58,11 +60,14 @@ std::deque<StoredWord> Trust::know(std::uint32_t campaign, std::span<const Store
     const PackedKey key = pack(score.key, campaign);
     book_->done.insert(key, score.status, score.measured);
     const auto name = trust.principals.find(score.worker);
+    // Not counted: results of workers without a principal in the store, and results that were made
+    // again.
     if (name == trust.principals.end() || trust.audited.contains(score.key)) continue;
     ++principals_.at(name->second)
           .standing(static_cast<WorkerNumber>(score.worker))
           .unchecked_of(campaign);
     if (every == 0 || score.status != EvaluationStatus::Ok) continue;
+    // The draw depends on key and secret alone, so audits that a crash prevented are found again.
     if (!is_drawn(key, 1.0 / static_cast<double>(every))) continue;
     unaudited.push_back({score.key,
                          {.what = Said::What::Score,
@@ -79,6 +84,7 @@ std::deque<StoredWord> Trust::know(std::uint32_t campaign, std::span<const Store
 bool Trust::may_answer(const WorkerEntry& entry, const Result& result) {
   const bool lingered = book_->leases.loads().settle(entry.number, result.key);
   TaskRecord* record = book_->leases.find(result.key);
+  // Signed for another machine under the same key, before a crash (decision 19).
   if (result.signature != 0 && record != nullptr && !signer_.is_of(result.signature, record->task))
     return false;
   if (lingered || (record != nullptr && record->lease_of(entry.number) != nullptr)) return true;
@@ -88,8 +94,10 @@ bool Trust::may_answer(const WorkerEntry& entry, const Result& result) {
 bool Trust::is_on_trial(const WorkerEntry& entry, std::uint32_t campaign) const {
   const bool audits =
       !book_->options.evaluates_programs && book_->options.campaigns[campaign].audit_every > 0;
+  // Workers that this process started are trusted from the beginning.
   if (!audits || entry.principal->local) return false;
   const Principal::Standing* standing = entry.principal->find_standing(entry.number);
+  // Decision 19, "Newcomers are on trial".
   return standing == nullptr || standing->confirmed < kTrial;
 }
 
@@ -188,6 +196,8 @@ void Trust::audit(const TaskRecord& record, const WorkerEntry& entry, const Resu
   const Principal& principal = *entry.principal;
   const Principal::Standing* standing = principal.find_standing(entry.number);
   const std::int64_t taken = standing == nullptr ? 0 : standing->taken;
+  // 4/n for the n-th result (docs/protocol.md, "Trust"): who lies early is found early, and the sum
+  // over n results grows only with their logarithm.
   const double dense = principal.local ? 0 : kDenseAtFirst / static_cast<double>(taken + 1);
   const double share = std::max(1.0 / static_cast<double>(every), dense);
   if (!has_word && !is_drawn(result.key, share)) return;
@@ -223,6 +233,8 @@ void Trust::set_credit(WorkerEntry& entry, std::uint32_t credit) {
   entry.asked |= credit > 0;
   const Principal& principal = *entry.principal;
   std::size_t most = entry.credit;
+  // A liar must not occupy the referee: no more tasks until it has decided (docs/protocol.md, "Who
+  // is blamed").
   if (principal.claims >= Principal::kMostClaims) most = 0;
   const bool is_new = !book_->options.evaluates_programs && !principal.is_proven();
   if (is_new) most = std::min(most, book_->now < principal.waits_until ? 0 : kRoomOnTrial);
@@ -436,6 +448,7 @@ void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, T
   ++standing.unchecked_of(campaign);
   ++standing.taken;
   if (++principal.taken == 1) update_room(principal);
+  // Only for programs, which have no referee: a result shows that the other worker failed alone.
   const bool failed_elsewhere =
       book_->options.evaluates_programs && record.avoid != 0 && record.avoid != entry.number;
   if (failed_elsewhere) {

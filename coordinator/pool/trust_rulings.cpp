@@ -16,6 +16,7 @@ Measured measured_of(const DoneEntry& entry) {
 }
 
 bool is_right(const Said& said, const Ruling& ruling) {
+  // A time-out of the referee confirms neither a score nor a rejection.
   if (said.what == Said::What::NoScore) return ruling.kind == Ruling::Kind::Rejected;
   return ruling.kind == Ruling::Kind::Score && same_bits(said.measured, ruling.measured);
 }
@@ -58,6 +59,7 @@ void Trust::claim(WorkerEntry& entry, TaskRecord& record, Said::What what) {
 }
 
 void Trust::rule_on_stray(TaskRecord& record) {
+  // One at a time, so that strangers who take tasks and leave cannot fill the referee's queue.
   if (cases_.without_worker() > 0 || book_->options.evaluates_programs) return;
   record.strays = 0;
   book_->leases.park(record);
@@ -154,6 +156,7 @@ void Trust::on_ruling(const Ruling& ruling, TimePoint now) {
     const auto spent_us = static_cast<double>(std::max<std::int64_t>(ruling.measured.wall_us, 0));
     referee_us_ += (referee_us_ == 0 ? 1.0 : 0.05) * (spent_us - referee_us_);
   }
+  // The referee could not work, so nothing is known about the evaluation or the workers.
   if (ruling.kind == Ruling::Kind::NoWord) {
     for (const Said& said : ruled->said)
       let_go(said);
@@ -183,6 +186,7 @@ void Trust::carry_out(const Case& ruled, const Ruling& ruling, TimePoint now) {
                             .reason = ruling.reason}});
     return book_->reject(*record, 0, ruling.reason);
   }
+  // If a worker said the same, the outcome is its own: the referee only confirmed it.
   const auto right =
       std::ranges::find_if(ruled.said, [&](const Said& said) { return is_right(said, ruling); });
   const bool is_of_worker = right != ruled.said.end();
@@ -195,6 +199,7 @@ void Trust::carry_out(const Case& ruled, const Ruling& ruling, TimePoint now) {
   const WorkerNumber by = is_of_worker ? right->worker : 0;
   book_->note_second_copy(*record, by, now);
   Measured measured = ruling.measured;
+  // Time of a worker's slot, as for other outcomes.
   if (is_of_worker) measured.wall_us = right->measured.wall_us;
   book_->accept(
       {.key = record->task.key,
@@ -211,12 +216,16 @@ void Trust::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now)
   Principal* principal = principals_.find(said.principal);
   const bool is_decided = ruling.kind != Ruling::Kind::TimedOut;
   if (said.taken && is_decided && is_right(said, ruling)) note_audited(said, principal, ruling);
+  // A worker that died did not claim anything, so it cannot be wrong.
   if (principal == nullptr || said.what == Said::What::Died) return;
   if (said.what == Said::What::NoScore) {
+    // A failure where there is a score may be bad luck: it counts against the worker, but is not a
+    // lie.
     if (ruling.kind == Ruling::Kind::Score) strike(*principal, said.worker, now);
     return;
   }
   if (is_decided) ++book_->counters.audited;
+  // The evaluation is pure, so other bits are a fault or a lie (decision 19).
   if (is_decided && !is_right(said, ruling)) {
     convict(*principal, said.worker,
             "it gave " + text_of(said) + " for the evaluation of " + name_of(unpack(ruling.key)) +

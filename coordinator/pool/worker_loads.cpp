@@ -18,6 +18,8 @@ void put(std::set<WorkerNumber>& workers, WorkerNumber worker, bool was_in, bool
 
 }  // namespace
 
+/// All changes go through here: sums and sets follow from the load before and after the change, so
+/// no call walks over all workers.
 template <class Change>
 void WorkerLoads::change(WorkerNumber worker, const Change& make) {
   const auto at = loads_.try_emplace(worker).first;
@@ -30,6 +32,7 @@ void WorkerLoads::change(WorkerNumber worker, const Change& make) {
   idle_ += load.idle() - idle;
   put(with_room_, worker, room > 0, load.room() > 0);
   put(with_idle_, worker, idle > 0, load.idle() > 0);
+  // A worker that left and holds nothing leaves no trace.
   if (load.slots == 0 && load.held() == 0) loads_.erase(at);
 }
 
@@ -46,6 +49,7 @@ WorkerLoads::Place WorkerLoads::lease(WorkerNumber worker, PackedKey key, bool a
   change(worker, [&](WorkerLoad& load) {
     place = load.leases.insert(load.leases.end(), key);
     if (ahead) ++load.ahead;
+    // A new lease of the task replaces the old one there, so it takes one place only.
     load.lingering.erase(key);
   });
   return place;
@@ -75,6 +79,7 @@ bool WorkerLoads::renew_lingering(WorkerNumber worker, PackedKey key, TimePoint 
   const auto load = loads_.find(worker);
   if (load == loads_.end()) return false;
   const auto at = load->second.lingering.find(key);
+  // Only the time changes, so neither room nor idle slots do.
   if (at == load->second.lingering.end()) return false;
   at->second = now;
   return true;

@@ -45,6 +45,7 @@ void WorkerRegistry::connect(WorkerEntry& entry, PeerId peer, TimePoint now) {
   SWARMSMITH_ASSERT(!entry.connected, "a worker has one connection");
   entry.connected = true;
   entry.peer = peer;
+  // Numbers, credit and times are those of one connection; the worker's history stays.
   entry.last_sequence = 0;
   entry.credit = 0;
   entry.asked = false;
@@ -79,6 +80,7 @@ void WorkerRegistry::set_quarantined(WorkerEntry& entry, bool quarantined) {
   const PeerId peer = entry.peer;
   const TimePoint heard = entry.last_heard;
   const std::uint64_t sequence = entry.last_sequence;
+  // Out and in again, so that the slots are counted as those of the new state.
   if (connected) disconnect(entry);
   entry.quarantined = quarantined;
   if (!connected) return;
@@ -92,6 +94,8 @@ void WorkerRegistry::forget_old(TimePoint now) {
   for (auto at = entries_.begin(); at != entries_.end();) {
     const WorkerEntry& entry = at->second;
     const bool is_old = !entry.connected && now - entry.last_heard > kMemory;
+    // Unknown peers can say hello under ever new ids; the entries of workers that did something
+    // stay.
     const bool is_one_too_many = entry.is_idler() && idlers > kMostIdlers;
     if (is_old || is_one_too_many) {
       if (entry.is_idler()) --idlers;

@@ -74,11 +74,15 @@ void DriverWatch::commanded(TimePoint at, double left_mps, double right_mps) {
                     "commands are in the order of their times");
   while (commands_.size() > 1 && at - commands_[1].from > kMemory)
     commands_.pop_front();
+  // The front one is kept as long as it was valid at any time within kMemory.
   const bool is_new = commands_.empty() || commands_.back().left_mps != left_mps ||
                       commands_.back().right_mps != right_mps;
   if (is_new) commands_.push_back({at, left_mps, right_mps});
 }
 
+/// The newest match counts, so a report is never taken to be later than it may be: speeds that were
+/// commanded twice give a late driver the benefit of the doubt. `compare_changes` is for such
+/// drivers.
 std::optional<TimePoint> DriverWatch::commanded_until(const DrivenMessage& driven) const {
   TimePoint until = driven.arrival.at;
   for (auto command = commands_.rbegin(); command != commands_.rend(); ++command) {
@@ -97,12 +101,16 @@ DriverWatch::Commanded DriverWatch::commanded_at(TimePoint time) const {
 }
 
 void DriverWatch::compare_changes(const DrivenMessage& driven) {
+  // Only changes are compared: a driver that goes on with one speed matches commands of many
+  // delays.
   const bool changed =
       last_ && last_->sender == driven.sender &&
       !(same(last_->left_mps, driven.left_mps) && same(last_->right_mps, driven.right_mps));
   if (!changed) return;
   changed_ = driven.arrival.at;
   for (Follows& follows : follows_)
+    // With this, `share` is the mean over the first `most` changes, and afterwards forgets older
+    // ones with the weight 1 / `most`.
     follows.changes = std::min(follows.changes + 1, follows.most);
   for (std::size_t i = 0; i < Follows::kDelays; ++i) {
     const Commanded then = commanded_at(driven.arrival.at - static_cast<int>(i) * kDelayStep);
@@ -124,7 +132,10 @@ std::string DriverWatch::why_behind(const Follows& follows) const {
   SWARMSMITH_ASSERT(follows.changes <= follows.most, "older changes are forgotten");
   if (follows.changes < follows.least) return {};
   const auto& share = follows.share;
+  // A late delay must explain almost all changes, and clearly more than each delay that is allowed:
+  // commands that are repeated with a period match late delays of a prompt driver, too.
   const auto late = share.begin() + prompt_delays();
+  // `hold` is 3 s or more.
   if (late == share.end()) return {};  // such long delays are not remembered
   const double prompt = *std::max_element(share.begin(), late);
   const auto best = std::max_element(late, share.end());
@@ -143,14 +154,18 @@ std::string DriverWatch::why_behind() const {
 void DriverWatch::note_obeyed(const DrivenMessage& driven, TimePoint until) {
   SWARMSMITH_ASSERT(until <= driven.arrival.at, "what it obeys was commanded before it said so");
   const bool stands = driven.left_mps == 0 && driven.right_mps == 0;
+  // Standing treads do no harm: a late report of 0 does not count against the driver.
   const bool is_late = driven.arrival.at - until > limits_.hold;
   // An earlier prompt report does not excuse a late one. All late reports count the same, however
   // late they are, so that a single one does not end the run.
   obeyed_ = is_late && !stands ? std::min(obeyed_, driven.arrival.at - limits_.hold - kDelayStep)
                                : std::max(obeyed_, until);
+  // A run that was held continues only after such a report (`trouble_of_driver`).
   if (stands) stopped_ = driven.arrival.at;
 }
 
+/// Marks each command with these speeds that was valid when the report came, or at most `hold`
+/// before.
 void DriverWatch::note_said(const DrivenMessage& driven) {
   TimePoint until = TimePoint::max();
   for (auto command = commands_.rbegin(); command != commands_.rend(); ++command) {
@@ -178,6 +193,7 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_not_done(TimePoint n
     const bool is_it =
         same(command.left_mps, last->left_mps) && same(command.right_mps, last->right_mps);
     if (!is_it || command.from < begun_ || now - commands_[i + 1].from <= limits_.hold) continue;
+    // A driver that obeyed it once can do it: only the times after this count.
     if (command.said) {
       sum = {};
       times = 0;
@@ -200,12 +216,16 @@ void DriverWatch::extend(std::optional<Spell>& spell, const std::string& name, T
 }
 
 void DriverWatch::hear(const DrivenMessage& driven) {
+  // Two senders in turn. `not_ready` refuses a start while both report.
   if (last_ && last_->sender != driven.sender && driven.arrival.at - last_->arrival.at <= kSpell)
     other_ = last_;
   if (!runs_) {
     last_ = driven;
     return;
   }
+  // The first sender of a run's reports is its driver until the end. A later one is a second
+  // driver, and the run ends if it goes on, whatever it reports (docs/robot-messages.md, "What the
+  // driver says").
   if (driver_.empty() || driver_ == driven.sender) {
     driver_ = driven.sender;
     const auto until = commanded_until(driven);
@@ -213,6 +233,7 @@ void DriverWatch::hear(const DrivenMessage& driven) {
     note_said(driven);
     compare_changes(driven);
     last_ = driven;
+    // A driver may always stop the treads on its own, so 0 is not a strange speed.
     strange_ = until || stands ? 0 : strange_ + 1;
     if (until) note_obeyed(driven, *until);
     return;
@@ -231,9 +252,12 @@ void DriverWatch::set_listeners(std::vector<Listener> listeners, TimePoint now) 
   for (const Listener& one : listeners_) {
     const bool was_there = contains(listened_at_start_, one.name);
     any_of_start |= was_there;
+    // Over ROS a listener does not say whether it drives: it may only record the speeds
+    // (`Listener::drives`).
     if (runs_ && one.drives && !was_there && !contains(came_later_, one.name))
       came_later_.push_back(one.name);
   }
+  // A new connection has another name, so a driver that was restarted counts as another driver.
   if (any_of_start) replaced_ = now;
   for (Listener& known : lively_) {
     const auto one = std::ranges::find(listeners_, known.name, &Listener::name);
@@ -246,6 +270,7 @@ void DriverWatch::set_listeners(std::vector<Listener> listeners, TimePoint now) 
 
 void DriverWatch::begin(TimePoint start) {
   runs_ = true;
+  // From the start, not from now: the treads need not obey before the agreed instant.
   begun_ = obeyed_ = replaced_ = start;
   unobeyed_since_ = unobeyed_at_ = {};
   unobeyed_ = unobeyed_before_ = {};
@@ -261,9 +286,12 @@ void DriverWatch::begin(TimePoint start) {
   lively_.clear();
   for (const Listener& one : listeners_) {
     listened_at_start_.push_back(one.name);
+    // Only these can be missed later: a mere listener may never give a sign of life.
     if (listened_ - one.heard <= limits_.give_up) lively_.push_back(one);
   }
   driver_.clear();
+  // A driver that has reported before the run must report in it. Otherwise a driver that hangs at
+  // the start would pass for one of the kind that never reports.
   if (last_ && listens(last_->sender)) driver_ = last_->sender;
 }
 
@@ -296,11 +324,15 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of(const std::optional<
                                                             const std::string& what,
                                                             TimePoint now) const {
   if (!spell || now - spell->last > kSpell) return std::nullopt;
+  // A single message only holds the treads. A sender that goes on for longer than `give_up` ends
+  // the run.
   const bool ends = spell->last - spell->first > limits_.give_up;
+  // Its last speeds may still be driven for this time: a driver stops by itself only after it.
   if (!ends && now - spell->last > limits_.hold) return std::nullopt;
   return Trouble{spell->first, true, ends, spell->name + what};
 }
 
+/// docs/robot-messages.md, "What the driver says": here only signs of life are known.
 /// For drivers that do not report their speeds.
 std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoint now) const {
   const auto since = [&](TimePoint time, std::string what) {
@@ -308,6 +340,7 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoin
   };
   if (listeners_.empty())
     return since(std::max(listened_, obeyed_), "no driver listens to the speeds of the treads");
+  // There are listeners, but none of those at the start.
   if (replaced_ < listened_)
     return since(replaced_, "the driver was replaced by " + names_of(listeners_));
   // Any client that declares itself a driver may be the real one; others may be mere listeners.
@@ -322,6 +355,8 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoin
 }
 
 std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_driver(TimePoint now) {
+  // Once the treads are held, they stay held until the driver reports a stop that is later: this
+  // shows that it receives and follows commands again.
   auto trouble = trouble_of_obedience(now);
   if (trouble) {
     if (!held_) held_ = now;
@@ -337,15 +372,21 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_driver(TimePoint now
 
 std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_obedience(TimePoint now) {
   constexpr int kStrange = 3;
+  // A delay that explains the changes, or a command that is never done, counts even if the last
+  // report matches what is commanded.
   if (auto why = why_behind(); !why.empty()) return Trouble{changed_, true, true, std::move(why)};
   auto missed = trouble_of_not_done(now);
   if (missed && missed->ends) return missed;
   if (now - obeyed_ <= limits_.hold) return missed;
+  // Pieces in succession are added up, because treads that are held obey for a moment: without the
+  // sum, a driver that never moves the treads would only alternate between these two states.
   if (now - unobeyed_at_ > kSpell) unobeyed_ = unobeyed_before_ = {};
   if (unobeyed_since_ != obeyed_) unobeyed_before_ += unobeyed_;
   unobeyed_since_ = obeyed_;
   unobeyed_at_ = now;
   unobeyed_ = now - obeyed_;
+  // Several reports of speeds that were not commanded cannot be a delay, so the node does
+  // not wait.
   const bool ends = strange_ >= kStrange || unobeyed_before_ + unobeyed_ > limits_.give_up;
   return Trouble{obeyed_, true, ends, why_not_obeyed(now)};
 }
@@ -355,6 +396,8 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble(TimePoint now) {
   const std::string beside =
       (is_quiet(now) ? " drives the treads in place of " : " also drives the treads, besides ") +
       driver_;
+  // All of them are computed in each cycle: `trouble_of_driver` remembers how long the treads did
+  // not obey, and the log gets the longest time of all.
   std::vector<std::optional<Trouble>> all = {trouble_of(rival_, " also commands the treads", now),
                                              trouble_of(second_, beside, now)};
   if (driver_.empty()) {
@@ -365,6 +408,7 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble(TimePoint now) {
   for (const auto& one : all) {
     if (one) longest_off_ = std::max(longest_off_, now - one->since);
   }
+  // Also below `hold`, although this is not a trouble: the log has the measured value.
   if (!driver_.empty()) longest_off_ = std::max(longest_off_, now - obeyed_);
   const auto first = [&all](bool Trouble::*what) -> std::optional<Trouble> {
     for (const auto& one : all) {
@@ -372,6 +416,7 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble(TimePoint now) {
     }
     return std::nullopt;
   };
+  // A trouble that ends the run comes before an earlier one in the list that only holds it.
   if (auto end = first(&Trouble::ends)) return end;
   return first(&Trouble::holds);
 }
@@ -380,6 +425,8 @@ std::vector<std::string> DriverWatch::not_ready(TimePoint now) const {
   std::vector<std::string> reasons;
   if (listeners_.empty()) {
     reasons.emplace_back("driver: no driver listens to the speeds of the treads");
+    // A driver that has never reported may be of the kind that does not, and a run may start with
+    // it.
   } else if (last_ && listens(last_->sender) && now - last_->arrival.at > limits_.give_up) {
     reasons.push_back(fmt::format("driver: {} has not reported what the treads do for {:.1f} s",
                                   last_->sender, seconds_of(now - last_->arrival.at)));
@@ -403,6 +450,7 @@ std::vector<std::string> DriverWatch::doubts() const {
                        " listened to the speeds of the treads, but disconnected during the run");
   }
   constexpr double kFollows = 0.6;
+  // Not sure enough to end a run: the changes fit no allowed delay well, but no late one either.
   const Follows& soon = follows_.front();
   const auto late = soon.share.begin() + prompt_delays();
   if (soon.changes == soon.most && *std::max_element(soon.share.begin(), late) < kFollows)

@@ -20,6 +20,7 @@ std::vector<std::pair<std::string, std::string>> fields_of(const Robot& robot) {
   for (const Section& section : robot_sections(robot, "robot")) {
     const std::string device = section.prefix.substr(section.prefix.find('.') + 1);
     for (const SectionLine& line : section.lines) {
+      // Keys of different devices may be equal, so each key gets the name of its device.
       if (line.key != "name") fields.emplace_back(device + line.key, line.value);
     }
   }
@@ -41,6 +42,8 @@ std::string difference(const Robot& wanted, const Robot& driven) {
 
 std::optional<std::string> other_robot(std::string_view what, const Robot& wanted,
                                        const Robot& driven) {
+  // RVRs with different outlines count as one robot (docs/robot-runtime.md, "Which robot"): the
+  // outline has no effect on what a node reads or commands.
   if (wanted == driven || (is_rvr(wanted) && is_rvr(driven))) return std::nullopt;
   if (wanted.name == driven.name) {
     return fmt::format("{} is for a robot `{}` with {}; use the same robot file for both", what,
@@ -55,9 +58,12 @@ std::optional<std::string> other_robot(std::string_view what, const Robot& wante
 }
 
 std::optional<std::string> no_node_drives(const Robot& robot) {
+  // Without a light ring of its own, a robot has its light sensors where its proximity sensors are.
   const std::size_t rays = robot.proximity.rays_deg.size();
   const std::size_t lights = robot.light.angles_deg.empty() ? rays : robot.light.angles_deg.size();
   std::string has;
+  // Drivers send distances, lux and colours (docs/robot-messages.md). A node would have to invent
+  // the readings of these other sensors.
   if (kOfStrengths.acts_on(robot)) {
     has = "proximity sensors that give strengths";
   } else if (kOfLightStrengths.acts_on(robot)) {

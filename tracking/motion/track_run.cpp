@@ -39,12 +39,15 @@ constexpr Question kUnknown{"undeclared tags", "", "a robot with another number"
 /// is about the two-sigma bound of a point between the tags.
 double place_error(const Rig& rig, const CameraSetup& setup) {
   const auto place = rig.places.find(setup.place_file);
+  // The table of docs/tracking.md, "Sigma", has this and the other parts of a robot's error.
   return place == rig.places.end() ? 0 : 0.5 * place->second.worst_left_out_m;
 }
 
 Expected<std::vector<TrackedCamera>> cameras_of(const Observations& observations, const Rig& rig,
                                                 const RunSpan& span) {
   const std::size_t lengths = span.lengths_s.size();
+  // Times of one camera must not be used for another one, so the counts must agree before any
+  // index.
   if (span.starts_s.size() != observations.cameras.size() ||
       (lengths != 0 && lengths != observations.cameras.size())) {
     return Unexpected(
@@ -71,6 +74,8 @@ Expected<std::vector<TrackedCamera>> cameras_of(const Observations& observations
                       setup->name, setup->model_file, setup->place_file),
           rig.file));
     }
+    // Focal length and centre of a lens calibration are in pixels of its own picture (tracking
+    // facts, section 2).
     const auto fits = check_picture_size(setup->model_file, view->camera.size, record.size, {},
                                          record.file.empty() ? setup->model_file : record.file);
     if (!fits) return Unexpected(fits.error());
@@ -89,6 +94,8 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, bool is_another, con
     const OffsetCalibration* const own = of_tag(found->second, setup.tag);
     if (own != nullptr) {
       const double length_m = std::hypot(own->offset.x_m, own->offset.y_m);
+      // A tag sits on its robot; an offset beyond the body is a wrong calibration or another kind
+      // of robot.
       if (const double most_m = most_offset_of(options.body); length_m > most_m) {
         return Unexpected(error_of(
             IssueCode::SpinQuality,
@@ -108,6 +115,8 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, bool is_another, con
     reason = fmt::format("the offset calibration `{}` of {} is of tag {}, and it carries tag {}",
                          setup.offset_file, setup.name, offset.tag, setup.tag);
   }
+  // Refused by default, because the error always makes the score better (tracking
+  // facts, section 5).
   if (!options.takes_tags_for_centres) {
     return Unexpected(error_of(
         IssueCode::NoOffset,
@@ -127,11 +136,14 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, bool is_another, con
 Expected<std::vector<TaggedRobot>> tagged_robots(const RobotSetup& setup, const Rig& rig,
                                                  const TrackOptions& options, TrackedRun& run) {
   TrackOptions asked = options;
+  // Two tags cannot both be the centre of one robot.
   if (!setup.more_tags.empty()) asked.takes_tags_for_centres = false;
   std::vector<TaggedRobot> tags;
   for (const RobotSetup& tag : each_tag(setup)) {
     auto robot = tagged_robot(tag, !tags.empty(), rig, asked, run);
     if (!robot) return Unexpected(robot.error());
+    // A spin alone gives each tag's offset in the frame of that tag; the tags would have no common
+    // heading (tracking facts, section 5).
     if (!setup.more_tags.empty() && !robot->has_yaw) {
       return Unexpected(
           error_of(IssueCode::NoOffset,
@@ -152,6 +164,8 @@ SightingsByTag sightings_of(const Observations& observations,
                             std::span<const TrackedCamera> cameras,
                             std::span<const Repeats> repeats, const TrackOptions& options) {
   SWARMSMITH_ASSERT(repeats.size() == cameras.size(), "each camera has a word about its frames");
+  // Poses are interpolated and never extrapolated, so the first and the last instant need samples
+  // from outside the run: up to the longest gap that can be bridged.
   const double margin = options.limits.degraded_gap_s;
   const double end = instant_s(options.span.cycles) + margin;
   SightingsByTag found;
@@ -162,6 +176,7 @@ SightingsByTag sightings_of(const Observations& observations,
     const auto camera = static_cast<std::size_t>(seen.camera);
     const std::vector<bool>& again = repeats[camera].again;
     const auto frame = static_cast<std::size_t>(std::max<std::int64_t>(seen.frame, 0));
+    // A copy shows an earlier time than its stamp (docs/tracking.md, "Videos and time").
     if (frame < again.size() && again[frame]) continue;
     const double time = seen.time_s - cameras[camera].start_s;
     if (time >= -margin && time <= end) found[seen.tag].push_back(i);
@@ -178,6 +193,7 @@ void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOp
     known.insert(reference.tag);
   std::string list;
   int count = 0;
+  // Only listed: an unknown tag cannot be a robot of the run (tracking facts, section 8).
   for (const auto& [tag, seen] : sightings) {
     if (known.contains(tag)) continue;
     ++count;
@@ -202,6 +218,7 @@ std::string causes(const Observations& observations, const Rig& rig) {
     }
     const auto twice =
         std::ranges::count_if(frames, [](const auto& frame) { return frame.second > 1; });
+    // In most of its pictures: then a second robot may carry the number all the time.
     if (twice == 0 || 2 * static_cast<std::size_t>(twice) < frames.size()) continue;
     text += fmt::format(
         ". Note: tag {} is there twice in {} of the {} frames in which it is seen; "
@@ -218,6 +235,8 @@ Error missing(const TaggedRobot& robot, const RobotSamples& samples, const Frame
     return std::ranges::count(samples.samples, use, &Sample::use);
   };
   const std::string who = fmt::format("{} ({})", robot.setup.name, tags_text(robot.setup));
+  // The likely causes, from the film as a whole to the single sighting: no picture, two tags with
+  // one number, a tag that is not flat, a tag that was not seen.
   if (frames.frames == 0 || frames.from_s > kFirstLook_s) {
     return error_of(
         IssueCode::VideoTruncated,
@@ -307,6 +326,7 @@ void join(const std::vector<RobotTrack>& tracks, int cycles, TrackedRun& run) {
 /// One dropped frame is not a gap at 12 frames/s, but five dropped frames are a gap at 30 frames/s.
 TrackOptions for_rate(TrackOptions options, double frame_rate) {
   constexpr double kLeast_s = 0.15;
+  // The values are those of the table in docs/tracking.md, "Videos and time".
   constexpr double kJitter = 1.1;
   if (frame_rate > 0) {
     double& gap = options.limits.measured_gap_s;
@@ -320,6 +340,7 @@ void judge_lenses(const Rig& rig, const Arena& arena, TrackedRun& run) {
   for (const CameraSetup& camera : rig.cameras) {
     const std::optional<View> view = rig.view_of(camera);
     if (!view) continue;
+    // A lens polynomial is fitted to the corners of the board; beyond them it is a guess.
     const auto share = share_beyond_reach(rig.models.at(camera.model_file), view->place, arena);
     Check check{.name = "reach of the lens calibration",
                 .subject = camera.name,
@@ -356,6 +377,7 @@ void judge_survey(const Rig& rig, const Arena& arena, TrackedRun& run) {
     std::vector<ReferenceTag> tags;
     for (const PlaceCalibration::Seen& seen : rig.places.at(camera.place_file).tags)
       tags.push_back(seen.tag);
+    // Half of the arena or more (tracking facts, section 3).
     const double share = share_within_tags(tags, *view, corners_of(arena));
     const bool is_within = share >= limit;
     run.checks.push_back(answered(kSpread, camera.name,
@@ -383,6 +405,7 @@ std::optional<Error> flaw_of_shutter(const CameraRecord& record, const Repeats& 
     last_s = record.frame_times[i];
   }
   if (intervals.empty()) return std::nullopt;
+  // The median, because lost frames make some intervals longer.
   const double interval_s = upper_median(std::move(intervals));
   // Clocks round to milliseconds.
   constexpr double kRounding_s = 0.001;
@@ -437,6 +460,8 @@ TrackLimits limits_of(const Robot& robot, double logged_m_s) {
   if (logged_m_s != kMaxWheelSpeed_mps) most = std::max(most, logged_m_s);
   TrackLimits limits;
   allow_speed(limits, most, 2 * most / drive.track_m);
+  // Logs have the limit of the treads' speed, so a film in which robots are faster is an error, not
+  // only a doubt (docs/tracking.md, "Is the clock right?").
   if (!(logged_m_s > 0)) return limits;
   limits.driving_speed_m_s = logged_m_s;
   limits.driving_turn_rad_s = 2 * logged_m_s / drive.track_m;
@@ -448,6 +473,7 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
                                const TrackOptions& asked) {
   const Expected<std::vector<TrackedCamera>> cameras = cameras_of(observations, rig, asked.span);
   if (!cameras) return Unexpected(cameras.error());
+  // Copies are found first: they are neither frames nor samples for anything that follows.
   std::vector<Repeats> repeats;
   for (std::size_t c = 0; c < cameras->size(); ++c)
     repeats.push_back(
@@ -458,6 +484,7 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
       return Unexpected(std::move(*flaw));
   }
   FrameReport frames = frame_report(observations, *cameras, repeats, rig, asked);
+  // How long a gap may be and still count as measured depends on the rate of the film.
   const TrackOptions options = for_rate(asked, frames.frame_rate_median);
   TrackedRun run{.covered_s = frames.covered_s,
                  .frame_rate_least = frames.frame_rate_least,
@@ -488,6 +515,7 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
       if (tags->size() > 1) each.push_back({tag, samples_by(tag)});
     }
     RobotSamples samples = each.empty() ? samples_by(*robot) : fused_samples(each, *cameras, rig);
+    // A score needs all robots, so the first one that is missing ends the tracking.
     if (!is_seen_early(samples)) {
       Error error = missing(*robot, samples, frames, spans_text(observations, *cameras),
                             causes(observations, rig));

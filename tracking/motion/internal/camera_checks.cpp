@@ -36,6 +36,8 @@ FramesOfRun frames_of(const CameraRecord& record, const Repeats& repeats, double
   SWARMSMITH_ASSERT(repeats.again.size() == record.frame_times.size(), "a word about each frame");
   FramesOfRun frames;
   for (std::size_t i = 0; i < record.frame_times.size(); ++i) {
+    // A copy does not count as a picture, so a recorder cannot hide a low rate with
+    // copies.
     if (!repeats.again[i]) frames.times.push_back(record.frame_times[i] - start_s);
   }
   const auto is_within = [&](double t) {
@@ -56,6 +58,7 @@ FramesOfRun frames_of(const CameraRecord& record, const Repeats& repeats, double
 std::int64_t dropped_in(const FramesOfRun& frames) {
   std::int64_t dropped = 0;
   for (const double interval : frames.intervals) {
+    // Between one interval and two: shorter ones are jitter of the clock.
     if (interval > 1.5 * frames.usual_s) {
       dropped += static_cast<std::int64_t>(std::llround(interval / frames.usual_s)) - 1;
     }
@@ -69,6 +72,7 @@ void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::stri
   const std::size_t first = issues.size();
   // Clocks round to milliseconds, so 10 frames/s may appear as 9.99.
   constexpr double kRounding = 0.99;
+  // Tracking facts, section 7: 10 frames/s are the least.
   if (frames.usual_s > 0 && 1 / frames.usual_s < kRounding * limits.least_frame_rate) {
     issues.push_back({IssueCode::FrameRate,
                       fmt::format("camera {} took {:.1f} frames/s, at least {:.0f} are needed; "
@@ -76,6 +80,7 @@ void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::stri
                                   camera, 1 / frames.usual_s, limits.least_frame_rate)});
   }
   const auto all = static_cast<double>(frames.within + dropped);
+  // 5 % (tracking facts, section 10).
   if (all > 0 && static_cast<double>(dropped) > limits.dropped_share * all) {
     issues.push_back({IssueCode::FramesDropped,
                       fmt::format("camera {} dropped {} of {:.0f} frames ({:.1f} %, limit {:.0f} "
@@ -114,6 +119,8 @@ std::string short_of(const Observations& observations, std::span<const Repeats> 
 void check_coverage(FrameReport& report, double slack_s, const std::string& why,
                     const TrackOptions& options) {
   const double duration = duration_of(options);
+  // The state at the end is never extrapolated (tracking facts, section 7): a mission that is
+  // scored at its last instant needs a picture there.
   const double slack_at_end = options.scored_at_the_end ? kSameInstant_s : slack_s;
   if (report.from_s <= slack_s && report.to_s >= duration - slack_at_end &&
       report.covered_s >= duration - 2 * slack_s) {
@@ -133,6 +140,7 @@ void measure_coverage(FrameReport& report, std::vector<std::pair<double, double>
   std::ranges::sort(spans);
   double end = 0;
   for (std::size_t i = 0; i < spans.size(); ++i) {
+    // From the end of the earlier cameras on: what two cameras film at the same time counts once.
     const double from = std::clamp(spans[i].first, end, duration_s);
     const double to = std::clamp(spans[i].second, end, duration_s);
     if (i == 0) report.from_s = from;
@@ -168,6 +176,8 @@ FrameReport frame_report(const Observations& observations, std::span<const Track
     report.frames += frames.within;
     report.dropped += dropped;
     report.twice += static_cast<std::int64_t>(repeats[c].count);
+    // A film that begins and ends with the run may have its first and last picture up to an
+    // interval inside it.
     slack = std::max(slack, 1.5 * frames.usual_s);
     check_rate(frames, dropped, cameras[c].name, options.limits, report);
     check_clock(

@@ -77,6 +77,7 @@ std::vector<Span> spans_of(const CameraRecord& record, const TrackedCamera& came
   });
   for (const ReferenceLook& look : looks) {
     const auto [before, is_first] = was.emplace(look.tag, look.corners);
+    // A tag that was not there at the calibration has no earlier position yet.
     if (is_first) continue;
     shifts[look.time_s].push_back(shift_of(before->second, look.corners));
     double& most = turned[look.time_s];
@@ -89,6 +90,7 @@ std::vector<Span> spans_of(const CameraRecord& record, const TrackedCamera& came
     if (time < -kMargin_s || time > duration_s + kMargin_s) continue;
     std::ranges::sort(of_tags);
     const std::size_t tags = of_tags.size();
+    // The median over the tags: a few that were kicked or are half covered do not count.
     const double lower = of_tags[(tags - 1) / 2];
     // One half of the tags moved and the other half did not: robots stand on some, or some were
     // kicked. It is unknown which half is right, so none of them counts.
@@ -107,17 +109,21 @@ std::optional<Issue> moved(const std::vector<Span>& spans, const std::string& ca
              return later.time_s > span.time_s && later.tags >= 2 && later.shift_px <= limit_px;
            });
   };
+  // Tracking facts, section 3: the limit is 1 px.
   const auto is_off = [&](const Span& span) {
     return span.shift_px > limit_px && !is_refuted(span);
   };
   const auto first = std::ranges::find_if(spans, is_off);
   if (first == spans.end()) return std::nullopt;
   const auto worst = std::ranges::max_element(spans, {}, &Span::shift_px);
+  // The push happened between two looks; before the first look its time is unknown.
   const std::string since =
       first == spans.begin()
           ? fmt::format("before {:.1f} s", std::max(0.0, first->time_s))
           : fmt::format("between {:.1f} s and {:.1f} s", std::prev(first)->time_s, first->time_s);
   constexpr double kNear_px = 20;
+  // All tags are nearly where a picture turned by 180 degrees has them, so the camera was not
+  // pushed.
   const bool is_turned = worst->tags >= 2 && worst->turned_px < std::min(kNear_px, worst->shift_px);
   return Issue{
       IssueCode::CameraMoved,
@@ -137,6 +143,7 @@ std::optional<Issue> unchecked(const std::vector<Span>& spans, const std::string
   constexpr const char* kWhatToDo =
       "a moved camera would not be noticed; keep the floor tags free, lit and in the picture";
   const auto last =
+      // Two tags or more, because a single one may have moved by itself.
       std::ranges::find_if(spans.rbegin(), spans.rend(), [](const Span& s) { return s.tags >= 2; });
   if (last != spans.rend() && last->time_s >= duration_s - kTail_s) return std::nullopt;
   const bool is_part = last != spans.rend();
@@ -190,6 +197,8 @@ void check_camera(const CameraRecord& record, const TrackedCamera& camera, const
                   const TrackOptions& options, std::vector<Issue>& issues,
                   std::vector<Check>& checks) {
   const double duration = instant_s(options.span.cycles);
+  // Looks with one tag are kept: they cannot prove that the camera stayed, but they can show that
+  // it moved.
   const std::vector<Span> spans = spans_of(record, camera, rig, duration, options.limits.moved_px);
   const auto setup = std::ranges::find(rig.cameras, camera.name, &CameraSetup::name);
   if (setup != rig.cameras.end()) {

@@ -16,6 +16,7 @@
 namespace swarmsmith {
 namespace {
 
+/// Tracking facts, section 7, "AVI": a film may play too fast, and only its length shows it.
 constexpr double kLengthTolerance_s = 0.2;
 constexpr std::size_t kFewFrames = 20;
 
@@ -59,6 +60,7 @@ void check_repeats(const FilmedCamera& film, Findings& findings) {
   }
   std::optional<Issue> issue;
   for (const ClockSpan& span : repeats.frozen) {
+    // Before and after the run a recorder may hang.
     if (span.from_s - start > film.duration_s || span.to_s < start) continue;
     if (issue) findings.issues.push_back(std::move(*issue));
     issue =
@@ -70,6 +72,7 @@ void check_repeats(const FilmedCamera& film, Findings& findings) {
                              span.from_s - start, span.to_s - start),
                  span.from_s - start, span.to_s - start);
   }
+  // Standing robots at the end of a film look like a recorder that hangs: a doubt, not a fault.
   const double doubtful = repeats.doubtful_from_s.value_or(start) - start;
   if (!issue && repeats.doubtful_from_s && doubtful < film.duration_s - kSameInstant_s) {
     issue = issue_of(IssueCode::PicturesRepeated,
@@ -104,6 +107,7 @@ bool check_length(const FilmedCamera& film, Findings& findings) {
     findings.add(std::move(check));
     return false;
   }
+  // The last picture lasts for one interval, too.
   const double length = times.back() - times.front() + mean_interval_s(times);
   const double off = length - *film.length_s;
   check.value = std::fabs(off);
@@ -128,13 +132,16 @@ void check_counting(const FilmedCamera& film, bool length_agrees, Findings& find
               .subject = film.camera.name,
               .unit = "frames/s",
               .catches = "a recorder that counts frames at another rate than the camera's"};
+  // A sidecar has the camera's own times (docs/tracking.md, "Videos and time").
   if (film.record.time_source == TimeSource::Sidecar) return findings.add(std::move(check));
   const auto period = counted_period_s(film.record.frame_times);
+  // Times that are not multiples of one period were read from a clock.
   if (!period && film.record.time_source != TimeSource::FrameRate) {
     return findings.add(std::move(check));
   }
   const double rate = 1 / period.value_or(std::max(mean_interval_s(film.record.frame_times), 1e-9));
   check.value = rate;
+  // A second clock confirms the counted one. Robots' logs may do this later (`kClockOfTheFilm`).
   if (length_agrees) return findings.add(std::move(check));
   findings.add(
       std::move(check),
@@ -172,6 +179,7 @@ void check_order(const FilmedCamera& film, const ClockSteps& steps, Findings& fi
 void check_steps(const FilmedCamera& film, Findings& findings) {
   const ClockSteps steps = clock_steps(film);
   check_order(film, steps, findings);
+  // docs/tracking.md, "Is the clock right?".
   constexpr double kLimit_s = 0.15;
   Check check{
       .name = "steps of the clock",
@@ -214,6 +222,7 @@ struct Fastest {
   double turn_rad_s = 0;
 };
 
+/// Not the largest value, which a single wrong sample would determine. 0 for too few values.
 double high_one(std::vector<double>& values, double share) {
   SWARMSMITH_ASSERT(share >= 0 && share <= 1, "a share of the values is smaller");
   if (values.size() < kFewFrames) return 0;
@@ -230,6 +239,7 @@ Fastest fastest_of(const TrackedRobot& robot, double duration_s) {
   std::vector<double> turns;
   std::vector<const Sample*> used;
   for (const Sample& sample : robot.samples) {
+    // Of one camera only: a difference between two cameras' positions would look like a speed.
     if (sample.use == Sample::Use::Used && sample.camera == robot.samples.front().camera &&
         sample.time_s >= 0 && sample.time_s <= duration_s) {
       used.push_back(&sample);
@@ -239,9 +249,11 @@ Fastest fastest_of(const TrackedRobot& robot, double duration_s) {
   std::size_t turn = 0;
   double turned = 0;  // turned since `turn`
   for (std::size_t i = 1; i < used.size(); ++i) {
+    // Summed frame by frame: the difference over a longer time is ambiguous beyond half a turn.
     turned += wrap_angle(used[i]->pose.theta - used[i - 1]->pose.theta);
     const double now = used[i]->time_s;
     const auto take = [&](std::size_t first, double span_s) {
+      // A long time without samples gives only a mean speed, so it is left out.
       return now - used[first]->time_s >= span_s && now - used[first]->time_s < 2 * span_s;
     };
     if (take(way, kWay_s)) {
@@ -272,23 +284,28 @@ void Findings::add(Check check, std::optional<Issue> issue) {
 
 std::optional<double> counted_period_s(const std::vector<double>& times) {
   constexpr double kSince1970_s = 1e8;
+  // Times since 1970 come from a clock: a recorder that counts begins near 0.
   if (times.size() < kFewFrames || times.front() > kSince1970_s) return std::nullopt;
   std::vector<double> intervals;
   for (std::size_t i = 1; i < times.size(); ++i)
     intervals.push_back(times[i] - times[i - 1]);
   const double grain = grain_s(times);
   double period = upper_median(std::move(intervals));
+  // Otherwise every time would be close to a multiple of the period.
   if (!(period > 2 * grain)) return std::nullopt;
   // Each further frame makes the period more precise.
   double turns = 0;
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double since = times[i] - times[i - 1];
     const double more = std::round(since / period);
+    // An interval may be several periods: then frames are missing.
     if (more < 1 || std::fabs(since - more * period) > 2 * grain + 0.01 * more * period)
       return std::nullopt;
     turns += more;
     if (i > kFewFrames / 2) period = (times[i] - times.front()) / turns;
   }
+  // With the final period, all times must lie on one grid: many small errors in one direction do
+  // not.
   turns = 0;
   double least = 0;
   double most = 0;
@@ -315,6 +332,7 @@ void check_speeds(const std::vector<TrackedRobot>& robots, const TrackLimits& li
   std::vector<double> shares;
   for (const TrackedRobot& robot : robots) {
     const Fastest fastest = fastest_of(robot, duration_s);
+    // A robot that only turns shows the speed of the film, too.
     shares.push_back(std::max(fastest.speed_m_s / limits.driving_speed_m_s,
                               fastest.turn_rad_s / limits.driving_turn_rad_s));
   }

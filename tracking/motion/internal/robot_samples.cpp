@@ -48,6 +48,7 @@ Sample sample_of(const Sighting& seen, const TaggedRobot& robot, const TrackedCa
 /// fit, and must not drop all samples. The squares of a rigid fit are the squares of the similarity
 /// fit plus the squares due to its scale.
 double residual_of_shape(const Sample& sample, double edge_m) {
+  // The corners of a square are edge / sqrt(2) from its middle, so a scale moves each by this.
   const double of_scale = 0.5 * edge_m * edge_m * (1 - sample.scale) * (1 - sample.scale);
   return std::sqrt(std::max(0.0, sample.residual_m * sample.residual_m - of_scale));
 }
@@ -62,6 +63,8 @@ double median_scale(const std::vector<Sample>& samples) {
 
 /// Drops single bad fits; returns the mean scale of the other samples.
 double drop_bad_fits(std::vector<Sample>& samples, double edge_m, const TrackLimits& limits) {
+  // Relative to the robot's own scale. Whether that scale is right is decided later, by
+  // `judge_tags`.
   const double usual = median_scale(samples);
   double sum = 0;
   int count = 0;
@@ -121,6 +124,8 @@ Sample* consistent_one(const FrameGroup& frame, const Sample* before, const Samp
   if (before == nullptr && after == nullptr) return nullptr;
   Sample* found = nullptr;
   for (Sample* sample : frame.samples) {
+    // Tracking facts, section 8, "Identity": the sighting that fits the track is used; if both or
+    // neither fit, both are dropped.
     if (before != nullptr && !is_reachable(timed(*before), timed(*sample), limits)) continue;
     if (after != nullptr && !is_reachable(timed(*sample), timed(*after), limits)) continue;
     if (found != nullptr) return nullptr;
@@ -131,12 +136,14 @@ Sample* consistent_one(const FrameGroup& frame, const Sample* before, const Samp
 
 void resolve_duplicates(RobotSamples& robot, int camera, const TrackLimits& limits) {
   const std::vector<FrameGroup> frames = frames_of(robot.samples, camera);
+  // The next frame with one sighting only: the next frame with two has not been decided yet.
   std::vector<const Sample*> next_alone(frames.size() + 1, nullptr);
   for (std::size_t i = frames.size(); i > 0; --i) {
     const auto& samples = frames[i - 1].samples;
     next_alone[i - 1] = samples.size() == 1 ? samples.front() : next_alone[i];
   }
   const Sample* before = nullptr;
+  // A sample that is farther away in time says little about where the robot is.
   const auto is_near = [&](const Sample* a, const Sample* b) {
     return a != nullptr && std::fabs(a->time_s - b->time_s) <= limits.degraded_gap_s;
   };
@@ -189,6 +196,7 @@ RobotSamples samples_of(const TaggedRobot& robot, const std::vector<Sighting>& s
                         const Arena& arena, const TrackOptions& options) {
   const TrackLimits& limits = options.limits;
   RobotSamples made;
+  // The store may return sightings in another order, and a later scoring must give the same bits.
   std::ranges::sort(
       own, [&](std::size_t a, std::size_t b) { return comes_first(sightings[a], sightings[b]); });
   for (const std::size_t number : own) {
@@ -200,15 +208,19 @@ RobotSamples samples_of(const TaggedRobot& robot, const std::vector<Sighting>& s
         sample_of(seen, robot, cameras[static_cast<std::size_t>(seen.camera)], options));
     made.samples.back().sighting = number;
   }
+  // Counted before anything is dropped.
   made.twice = frames_with_twins(made.samples);
   made.scale = drop_bad_fits(made.samples, robot.setup.edge_m, limits);
   for (Sample& sample : made.samples) {
     if (sample.use != Sample::Use::Used) continue;
     const Point at = sample.pose.position();
+    // Tracking facts, section 8. Less than this beyond a wall may be an error of survey or height.
     if (!is_inside(arena, at) && distance_to_walls(arena, at) > limits.outside_m) {
       sample.use = Sample::Use::Outside;
     }
   }
+  // For each camera alone: positions from two cameras differ by their calibrations, which is not
+  // motion. Duplicates come first, because the next step expects one place per frame.
   for (int camera = 0; camera < static_cast<int>(cameras.size()); ++camera) {
     resolve_duplicates(made, camera, limits);
     drop_outliers(made.samples, camera, limits);

@@ -34,6 +34,8 @@ struct Shear {
 std::optional<Shear> shear_of(const View& view, const TagCorners& corners, double edge_m,
                               double height_m) {
   const std::vector<Point> found = on_plane(view, corners, height_m);
+  // The square of the coordinates along each axis sums to 1, so the sums below are the
+  // least-squares matrix from the tag's frame to the floor.
   constexpr std::array<Point, 4> kModel{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
   Point middle;
   for (const Point& point : found) {
@@ -51,12 +53,15 @@ std::optional<Shear> shear_of(const View& view, const TagCorners& corners, doubl
     yy += (found[i].y - middle.y) * kModel[i].y / edge_m;
   }
   Shear shear;
+  // The heading of the rigid fit (tracking facts, section 4).
   shear.heading = std::atan2(yx - xy, xx + yy);
   // After the rotation by the heading is removed, the matrix is symmetric.
   const double c = std::cos(shear.heading);
   const double s = std::sin(shear.heading);
   const double left = (xx * c - xy * s) - (yx * s + yy * c);
   const double cross = (yx * c - yy * s) + (xx * s + xy * c);
+  // The part without a trace: a wrong edge or height stretches both axes alike and does not appear
+  // in it.
   shear.strain = {0.5 * left, 0.5 * cross};
   const Point3 centre = view.place.centre();
   shear.place =
@@ -84,8 +89,10 @@ double floor_scale(const Observations& observations, std::span<const TrackedCame
       if (std::ranges::find(tags, look.tag) == tags.end()) tags.push_back(look.tag);
     }
   }
+  // One tag may have another edge than declared.
   if (tags.size() < 2) return 1;
   const double scale = upper_median(std::move(scales));
+  // A larger deviation is not taken over to the robots' scales.
   return std::fabs(scale - 1) < kPlausible ? scale : 1;
 }
 
@@ -111,6 +118,8 @@ std::optional<double> stretch_between(std::span<const Sample> samples, const Poi
         before != nullptr && between != nullptr && between->time_s >= before->time_s &&
         sample.time_s - before->time_s < kNear_s && sample.time_s > before->time_s;
     if (has_pair) {
+      // The robot moves between two frames, so the positions from one camera are interpolated to
+      // the time of the other.
       const double share = (between->time_s - before->time_s) / (sample.time_s - before->time_s);
       const double x = before->pose.x + share * (sample.pose.x - before->pose.x);
       const double y = before->pose.y + share * (sample.pose.y - before->pose.y);
@@ -128,6 +137,8 @@ enum class Cause { Open, Height, Edge };
 /// Whether height or edge is wrong, if two cameras see the robot from places far enough apart.
 Cause cause_of(std::span<const Sample> samples, double scale,
                std::span<const TrackedCamera> cameras) {
+  // If the height is wrong, the cameras differ by this or more; a smaller difference could have
+  // other causes.
   constexpr double kTold_m = 0.010;
   for (std::size_t a = 0; a < cameras.size(); ++a) {
     for (std::size_t b = a + 1; b < cameras.size(); ++b) {
@@ -136,6 +147,7 @@ Cause cause_of(std::span<const Sample> samples, double scale,
       if (std::fabs(1 - scale) * hypot(at.x - other.x, at.y - other.y) < kTold_m) continue;
       const auto stretch = stretch_between(samples, {at.x, at.y}, {other.x, other.y},
                                            static_cast<int>(a), static_cast<int>(b));
+      // Expected are 1 for a wrong height and 0 for a wrong edge.
       if (stretch) return *stretch / (1 - scale) > 0.5 ? Cause::Height : Cause::Edge;
     }
   }
@@ -165,6 +177,7 @@ Look look_at(const TrackedTag& seen, double floor, std::span<const TrackedCamera
     look.reach_m =
         std::max(look.reach_m, hypot(sample.pose.x - centre.x, sample.pose.y - centre.y));
   }
+  // Standard deviation over the root of the count.
   if (count > 0) look.sigma = std::sqrt(squares) / count;
   return look;
 }
@@ -204,6 +217,7 @@ double judge_size(const Look& look, double floor, bool all_alike,
                   TrackedRun& run) {
   const RobotSetup& setup = look.robot.setup;
   const double off = std::fabs(look.scale - 1);
+  // 1 % and 3 % are from tracking facts, section 10. A warning must also be significant.
   const double warn = std::max(limits.scale_warning, 3 * look.sigma);
   Check check{.name = "size of the tag",
               .subject = look.robot.subject(),
@@ -226,6 +240,8 @@ double judge_size(const Look& look, double floor, bool all_alike,
        fmt::format("{} (tag {}) {}", setup.name, setup.tag,
                    size_text(look, floor, fails ? limits.scale_tolerance : warn, cause, all_alike)),
        setup.name});
+  // A height that is wrong by d changes the size by d / (H - h) (docs/tracking.md, "Robots move as
+  // robots do"); this is d, for the robot's sigma.
   return cause == Cause::Edge ? 0 : off * (look.height_m - setup.height_m);
 }
 
@@ -237,6 +253,7 @@ double judge_tilt(const TaggedRobot& robot, const std::optional<TagTilt>& tilt, 
               .limit = limit / kDegree,
               .unit = "degrees",
               .catches = "a tag or robot that is not level"};
+  // A tilt at the limit must be distinguishable from none, otherwise the check proves nothing.
   const bool is_told = tilt && 3 * tilt->sigma < limit;
   if (!is_told) {
     check.outcome = Check::Outcome::NotRun;
@@ -246,6 +263,7 @@ double judge_tilt(const TaggedRobot& robot, const std::optional<TagTilt>& tilt, 
   }
   const double angle = tilt->angle_rad();
   check.value = angle / kDegree;
+  // Only if it is certainly over the limit.
   const bool leans = angle > limit + 3 * tilt->sigma;
   if (leans) check.outcome = Check::Outcome::Warned;
   run.checks.push_back(std::move(check));
@@ -276,6 +294,7 @@ std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> 
   constexpr double kDegreesOfFreedom = 10;  // lens errors are constant while a robot stands
   std::vector<Shear> shears;
   for (const Sample& sample : samples) {
+    // Bad fits, too: a tag that leans much fits a level square badly.
     if (sample.use != Sample::Use::Used && sample.use != Sample::Use::BadFit) continue;
     SWARMSMITH_ASSERT(sample.sighting < sightings.size() &&
                           static_cast<std::size_t>(sample.camera) < cameras.size(),
@@ -296,6 +315,7 @@ std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> 
     weights = 0;
     squares = 0;
     for (const Shear& shear : shears) {
+      // The tilt is in the tag's axes, and the strain in the world's.
       const std::complex<double> turn = std::polar(1.0, shear.heading);
       const std::complex<double> leans = tilt * turn;
       const std::complex<double> off =
@@ -307,6 +327,7 @@ std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> 
       weights += std::norm(shear.place);
     }
     if (slopes < 1e-12) return std::nullopt;
+    // The least-squares step over all sightings.
     tilt -= sum / slopes;
   }
   const auto count = static_cast<double>(shears.size());

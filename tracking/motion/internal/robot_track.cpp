@@ -27,6 +27,8 @@ std::vector<CameraTrack> camera_tracks(const TaggedRobot& robot, const RobotSamp
   }
   for (std::size_t c = 0; c < tracks.size(); ++c) {
     CameraTrack& track = tracks[c];
+    // The motion model needs the noise alone. Errors of calibrations are the same in successive
+    // samples, so they are added only afterwards.
     const Scatter noise = scatter_of(track.poses);
     for (TimedPose& pose : track.poses)
       pose.sigma = noise;
@@ -65,6 +67,7 @@ std::vector<TimedPose> by_hand(const TaggedRobot& robot, const std::vector<Timed
     });
     if (camera == cameras.end()) continue;
     const std::vector<ImagePoint> pixels{point.middle, {point.middle.u + 1, point.middle.v}};
+    // The neighbouring pixel gives the size of a pixel at this place.
     const std::vector<Point> places = on_plane(camera->view, pixels, robot.setup.height_m);
     const double pixel_m = hypot(places[1].x - places[0].x, places[1].y - places[0].y);
     const double heading =
@@ -72,6 +75,7 @@ std::vector<TimedPose> by_hand(const TaggedRobot& robot, const std::vector<Timed
     const Pose tag{places[0].x, places[0].y, wrap_angle(heading + robot.offset.yaw_rad)};
     made.push_back({point.time_s,
                     robot_pose(tag, robot.offset),
+                    // An error of three pixels (docs/tracking.md, "Points by hand").
                     {kHit_px * pixel_m, point.heading_deg ? kSaid_rad : kGuessed_rad}});
   }
   return made;
@@ -95,6 +99,7 @@ struct Estimate {
 /// The weighted mean of several estimates; a single one is returned unchanged.
 Estimate fused(const std::vector<Estimate>& estimates) {
   SWARMSMITH_ASSERT(!estimates.empty(), "there is a measurement to fuse");
+  // Exactly: with one camera the score must not depend on the rounding of a mean.
   if (estimates.size() == 1) return estimates.front();
   const Pose& first = estimates.front().pose;
   double weights = 0;
@@ -107,6 +112,7 @@ Estimate fused(const std::vector<Estimate>& estimates) {
     turn_weights += turn_weight;
     sum.x += weight * estimate.pose.x;
     sum.y += weight * estimate.pose.y;
+    // Angles are averaged as differences from the first one, which are small.
     sum.theta += turn_weight * wrap_angle(estimate.pose.theta - first.theta);
   }
   return {{sum.x / weights, sum.y / weights, wrap_angle(first.theta + sum.theta / turn_weights)},
@@ -140,6 +146,7 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
     for (const TimedPose& pose : track.poses)
       made.merged.push_back({pose.time_s, pose.pose, track.sigma});
     for (std::size_t i = 1; i < track.poses.size(); ++i) {
+      // Of one camera: between two cameras, a step may be their disagreement.
       if (is_reachable(track.poses[i - 1], track.poses[i], options.limits)) continue;
       made.breaks.emplace_back(track.poses[i - 1], track.poses[i]);
     }
@@ -153,6 +160,7 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
   std::ranges::stable_sort(made.merged, {}, &TimedPose::time_s);
   std::vector<TimedPose> points = by_hand(robot, made.merged, cameras, options.points);
   std::erase_if(points, [&](const TimedPose& point) {
+    // A person's point does not replace a measurement.
     const bool is_seen = is_seen_at(made.merged, point.time_s, options.limits);
     (is_seen ? made.unneeded_s : made.by_hand_s).push_back(point.time_s);
     return is_seen;
@@ -167,6 +175,8 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
   };
   for (int cycle = 0; cycle <= options.span.cycles; ++cycle) {
     const double time = instant_s(cycle);
+    // Only measurements: an interpolation over one camera's gap would make another camera's
+    // measurement worse.
     std::vector<Estimate> measured;
     for (const auto& [track, motion] : motions) {
       const PoseAt found = motion.at(time);
@@ -176,6 +186,7 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
            {std::hypot(found.sigma.sigma_m, track->systematic_m), found.sigma.sigma_rad}});
     }
     if (measured.empty()) {
+      // A gap of one camera may contain samples of another one, and both together make it shorter.
       const PoseAt found = together.at(time);
       // A point that a person marked bridges a gap, but does not count as measured.
       const bool is_by_hand = std::ranges::any_of(made.by_hand_s, [&](double point_s) {

@@ -10,6 +10,7 @@
 namespace swarmsmith {
 namespace {
 
+/// With this, a run that is read from a store gives the same bits as the film.
 double as_stored(double pixels) {
   return std::round(pixels * 1000) / 1000;
 }
@@ -28,6 +29,7 @@ void measure_scale(TagWay& tag, double edge_m) {
   for (const Sighting* const seen : tag.seen) {
     if (seen != nullptr) edges.push_back(edge_px(seen->corners));
   }
+  // One scale for the whole picture: it is only used in limits of motion.
   tag.pixels_per_m = upper_median(std::move(edges)) / edge_m;
 }
 
@@ -43,6 +45,8 @@ void measure_way(TagWay& tag, const std::vector<double>& times) {
     if (now == nullptr) continue;
     if (before != nullptr) {
       const double step = corners_moved(before->corners, now->corners);
+      // Since the tag last moved, not since the last frame: after copies of a picture a robot makes
+      // up for all of the time in one step.
       const double most =
           tag.corner_speed_m_s * tag.pixels_per_m * (times[frame] - times[moved_at]);
       tag.way[frame] += std::min(step, most + kStandingTag_px);
@@ -105,6 +109,7 @@ std::vector<TagWay> tag_ways(const Observations& observations, int camera,
     if (robot == robots.end()) continue;
     const auto number = static_cast<std::size_t>(robot - robots.begin());
     const auto frame = static_cast<std::size_t>(seen.frame);
+    // Which of the two is the robot is not known here, so the frame does not count.
     if (ways[number].seen[frame] != nullptr) twice[number][frame] = true;
     ways[number].seen[frame] = &seen;
   }
