@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/hash.h"
 #include "base/plain_text.h"
 #include "base/rng.h"
@@ -175,6 +177,8 @@ class Ablation final : public Search {
   std::vector<std::int64_t> path_;  ///< ids of the configurations chosen so far
   std::unique_ptr<irace::Race> race_;
   std::vector<Experiment> wanted_;
+  /// By configuration and pair: costs that are in no step of the race yet.
+  std::map<std::pair<std::int64_t, std::int64_t>, double> told_;
   std::vector<RaceEvent> events_;
   std::vector<Elite> elites_;
   std::optional<Error> failure_;
@@ -260,7 +264,7 @@ void Ablation::tell(std::span<const Measurement> measurements) {
     // With a targetEvaluator the cost of a run is not known before its call (irace facts, 18.4).
     if (run.is_evaluation != scenario_.target_evaluator) continue;
     if (std::isnan(measurements[i].cost)) throw std::invalid_argument("a cost is not a number");
-    member(run.configuration).costs[static_cast<std::size_t>(run.pair - 1)] = measurements[i].cost;
+    told_[{run.configuration, run.pair}] = measurements[i].cost;
   }
   race_->tell(measurements);
   report_steps();
@@ -273,6 +277,13 @@ void Ablation::tell(std::span<const Measurement> measurements) {
 
 void Ablation::report_steps() {
   for (RaceStep& step : race_->take_steps()) {
+    // A race asks for several pairs at once. Runs that it does not count, since their configuration
+    // was rejected before or the race ended, are in no step, and have no cost here either.
+    for (const auto& [id, pair] : step.evaluated) {
+      const auto told = told_.extract({id, pair});
+      SWARMSMITH_ASSERT(!told.empty(), "each run of a step has a cost");
+      member(id).costs[static_cast<std::size_t>(pair - 1)] = told.mapped();
+    }
     step.iteration = iteration_;
     step.experiments_used += used_;
     Digest digest;
@@ -286,6 +297,7 @@ void Ablation::report_steps() {
 
 void Ablation::end_iteration() {
   wanted_.clear();
+  told_.clear();
   used_ += race_->used();
   if (race_->failure()) {
     failure_ = race_->failure();
@@ -378,6 +390,10 @@ Expected<std::unique_ptr<Search>> start_ablation(ParameterSpace space, const Sce
                      "ablation");
   for (const Configuration& end : ends) {
     if (auto checked = space.check(end); !checked) return Unexpected(checked.error());
+  }
+  if (scenario.ablation_pairs < 1) {
+    return bad_input("is " + std::to_string(scenario.ablation_pairs) + ": an ablation needs a pair",
+                     "ablation_pairs");
   }
   if (ends[0] == ends[1]) return bad_input("its two configurations are the same", "ablation");
   if (scenario.deterministic && scenario.ablation_pairs > scenario.n_instances) {

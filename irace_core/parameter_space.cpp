@@ -247,6 +247,13 @@ Expected<std::optional<Interval>> ParameterSpace::interval(std::size_t index,
     }
   } else {
     found = evaluate(std::get<Real>(parameters_[index].domain));
+    for (const double bound : {found ? found->lower : 0, found ? found->upper : 0}) {
+      if (std::isinf(bound)) {
+        return bad_input(
+            "a bound of its domain is infinite here: keep it finite, as by min() and max()",
+            parameters_[index].name);
+      }
+    }
   }
   // irace facts, 8.3: equal bounds are allowed, an empty domain is an error.
   if (found && found->lower > found->upper) {

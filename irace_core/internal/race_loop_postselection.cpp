@@ -84,6 +84,9 @@ void IteratedRace::State::fall_back() {
   for (auto ended = ended_.rbegin(); ended != ended_.rend() && elites.empty(); ++ended) {
     std::copy_if(ended->begin(), ended->end(), std::back_inserter(elites),
                  [&](const Elite& elite) { return candidate(elite.configuration).takes_part; });
+    // They may have been run on more pairs since then; their order stays that of this iteration.
+    for (Elite& elite : elites)
+      elite = candidate(elite.configuration).as_elite(elite.configuration, elite.rank);
   }
   // All elites of all iterations were rejected: the best of the others that were tried remain.
   if (!elites.empty()) return;

@@ -47,10 +47,12 @@ Expected<std::vector<std::int64_t>> IteratedRace::State::first_contestants(const
   for (std::int64_t id = 1; id <= initial_count_ && ids.size() < most; ++id) {
     if (candidate(id).takes_part && candidate(id).results.empty()) ids.push_back(id);
   }
-  const auto given = std::ranges::count_if(
-      ids, [&](std::int64_t id) { return id <= initial_count_ && candidate(id).results.empty(); });
-  if (ids.size() == most && given < initial_count_ && elites.empty()) {
-    warn("only " + std::to_string(given) + " of the " + std::to_string(initial_count_) +
+  const auto given = static_cast<std::int64_t>(ids.size() - elites.size());
+  std::int64_t able = 0;  // without those that are forbidden or were rejected by an estimate
+  for (std::int64_t id = 1; id <= initial_count_; ++id)
+    able += candidate(id).takes_part && candidate(id).results.empty() ? 1 : 0;
+  if (given < able && elites.empty()) {
+    warn("only " + std::to_string(given) + " of the " + std::to_string(able) +
          " initial configurations take part: the first race has no room for more");
   }
   // The batch of Sobol points may be smaller than wanted, in a space with few values or with strict

@@ -96,7 +96,14 @@ Expected<bool> Schedule::shrink_to(std::int64_t remaining) {
 
 std::string Schedule::advice_for_first_race(std::int64_t remaining) const {
   const std::int64_t wanted = scenario_.nb_configurations;
-  const std::int64_t most = remaining / (mu_ + pairs_between_tests_);
+  // plan() leaves the budget to later iterations until the number fits. Their shares are larger,
+  // and so are their costs of a configuration: any of them may allow most.
+  std::int64_t most = 0;
+  Schedule later = *this;
+  for (; later.iteration_ <= later.iterations_; ++later.iteration_) {
+    most = std::max(most, later.race_size_for(later.iteration_budget(remaining), 0, 0));
+    if (scenario_.nb_experiments_per_iteration > 0) break;  // each has the same budget
+  }
   if (wanted <= most) return {};
   return " (nb_configurations is " + std::to_string(wanted) + ", and " + std::to_string(remaining) +
          " experiments allow " + std::to_string(most) +

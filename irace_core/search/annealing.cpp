@@ -166,10 +166,12 @@ class Annealing final : public Strategy {
   }
 
   Verdict take_scale(std::span<const double> costs) {
+    // scale_round() puts the smallest machine, which is not random, first or second.
+    const std::int64_t smallest = incumbent_.id + (options_.start_at_random ? 1 : 0);
     std::vector<double> means;
     for (const Scored& one : ranked(runs_, costs)) {
       // The mean of a rejected configuration is infinite: it has no place in a standard deviation.
-      if (one.id != incumbent_.id && !std::isinf(one.mean)) means.push_back(one.mean);
+      if (one.id != smallest && !std::isinf(one.mean)) means.push_back(one.mean);
     }
     scale_ = standard_deviation(means);
     keep_costs(incumbent_, costs);

@@ -94,7 +94,9 @@ Verdict Generations::take(std::span<const double> costs) {
 }
 
 Expected<void> Generations::extend(std::int64_t experiments) {
-  if (const auto least = least_extension(); !least || experiments < *least) {
+  const auto least = least_extension();
+  if (!least) return Unexpected(least.error());
+  if (experiments < *least) {
     return bad_input(
         "is too little for a further generation and a final stage: it must be at least " +
         std::to_string(*least));

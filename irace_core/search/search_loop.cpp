@@ -183,7 +183,14 @@ Expected<void> SearchLoop::extend(std::int64_t experiments) {
   if (auto extended = strategy_->extend(experiments); !extended) return extended;
   scenario_.max_experiments += experiments;
   finished_ = false;
-  return ask();
+  if (auto asked = ask(); !asked) {
+    // The elites so far stay. Each further extension fails in the same way.
+    failure_ = asked.error();
+    finished_ = true;
+    wanted_.clear();
+    return asked;
+  }
+  return {};
 }
 
 Expected<std::int64_t> SearchLoop::least_extension() const {

@@ -202,6 +202,18 @@ TEST(AblationWay, RejectedChangesAreOutOfIt) {
   EXPECT_EQ(ends.search->elites().back().mean, 0);
 }
 
+/// All pairs of a configuration are wanted at once, so it has costs on the pairs after its
+/// rejection.
+TEST(AblationWay, CostsAfterARejectionDoNotCount) {
+  const Driven way(on_pairs(5), {0}, {1}, [](const Configuration& values, const Experiment& run) {
+    return values[0] == 0 && run.pair == 3 ? kRejected : 10.0;
+  });
+  const Elite& source = way.search->elites().back();
+  EXPECT_EQ(source.configuration, 1);
+  EXPECT_EQ(source.n, 2);
+  EXPECT_EQ(way.search->experiments_used(), 3 + 5);
+}
+
 TEST(AblationWay, CallsTheTargetEvaluatorAfterTheRunsOfAPair) {
   Scenario scenario = on_pairs(6);
   scenario.target_evaluator = true;

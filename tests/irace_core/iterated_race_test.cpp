@@ -431,6 +431,28 @@ TEST(IteratedRace, ReportsForbiddenGivenConfigurationsWithoutRacingThem) {
   EXPECT_TRUE(raced.contains(2));
 }
 
+TEST(IteratedRace, SaysHowManyGivenConfigurationsHaveNoRoom) {
+  const ParameterSpace space = space_of(
+      {make_categorical("kind", {"a", "b"}), make_real("x", 0, 10)}, {equals("kind", "b")});
+  Scenario scenario = small_scenario();
+  scenario.nb_configurations = 10;
+  const auto warnings = [&](int allowed) {
+    std::vector<Configuration> given;
+    for (int i = 0; i <= allowed; ++i) {
+      given.emplace_back(2);
+      given.back().set(0, i == 0 ? 1 : 0);  // the first is forbidden
+      given.back().set(1, 0.5 * i);
+    }
+    auto race = IteratedRace::start(space, scenario, given).value();
+    std::string text;
+    for (const RaceWarning& warning : only<RaceWarning>(race.take_events()))
+      text += warning.text + "; ";
+    return text;
+  };
+  EXPECT_THAT(warnings(10), Not(HasSubstr("no room")));
+  EXPECT_THAT(warnings(12), HasSubstr("only 10 of the 12 initial configurations take part"));
+}
+
 TEST(IteratedRace, UsesFreshPairsInEachRaceWithoutElitism) {
   Scenario scenario = small_scenario();
   scenario.elitist = false;

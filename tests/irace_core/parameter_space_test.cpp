@@ -88,6 +88,18 @@ TEST(ParameterSpace, EvaluatesDependentDomainsWithWhatTheyDependOn) {
   EXPECT_EQ(space.interval(1, values).value(), (Interval{0, 2}));  // truncated
 }
 
+TEST(ParameterSpace, RefusesDomainsThatAreInfiniteHere) {
+  const Expression inverse = call(Operation::Divide, number(10), name("n"));
+  const ParameterSpace space =
+      space_of({make_integer("n", 0, 9), {"x", "", Real{0.0, inverse}, {}}});
+  Assignment values(space);
+  values.set(0, 5);
+  EXPECT_EQ(space.interval(1, values).value(), (Interval{0, 2}));
+  values.set(0, 0);
+  EXPECT_THAT(complaint_of(space.interval(1, values)),
+              HasSubstr("x: a bound of its domain is infinite here"));
+}
+
 TEST(ParameterSpace, IntegersAreExactUpTo53BitsAndRefusedBeyond) {
   const ParameterSpace space = space_of(
       {make_integer("n", 0, irace::kLargestWhole),

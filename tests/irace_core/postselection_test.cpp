@@ -177,6 +177,7 @@ TEST(PostselectionRace, KeepsElitesWhenEverythingElseFails) {
     bool last_race = false;
     std::set<std::int64_t> rejected;
     std::vector<std::vector<std::int64_t>> ended;  // the elites of each iteration
+    std::map<std::int64_t, std::int64_t> runs;
     while (!race.finished()) {
       std::vector<double> costs;
       for (const Experiment& wanted : race.wanted()) {
@@ -187,6 +188,8 @@ TEST(PostselectionRace, KeepsElitesWhenEverythingElseFails) {
       race.tell(costs);
       for (const RaceEvent& event : race.take_events()) {
         if (const auto* step = std::get_if<RaceStep>(&event)) {
+          for (const auto& [id, pair] : step->evaluated)
+            ++runs[id];
           for (const Elimination& dropped : step->eliminations) {
             if (dropped.reason == EliminationReason::Rejection) {
               rejected.insert(dropped.configuration);
@@ -208,8 +211,11 @@ TEST(PostselectionRace, KeepsElitesWhenEverythingElseFails) {
       std::erase_if(elites, [&](std::int64_t id) { return rejected.contains(id); });
     while (!ended.empty() && ended.back().empty())
       ended.pop_back();
-    for (const std::int64_t id : ids_of(race.elites()))
-      EXPECT_FALSE(rejected.contains(id));
+    for (const Elite& elite : race.elites()) {
+      EXPECT_FALSE(rejected.contains(elite.configuration));
+      EXPECT_EQ(elite.n, runs[elite.configuration])
+          << "all its runs, not those until it was an elite";
+    }
     if (ended.empty()) continue;
     ++kept_elites;
     EXPECT_EQ(ids_of(race.elites()), ended.back()) << "the latest elites that are left";

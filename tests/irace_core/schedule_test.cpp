@@ -69,6 +69,21 @@ TEST(Schedule, SkipsIterationsUntilTheConfigurationsAskedForFit) {
   EXPECT_THAT(reason(Schedule(scenario, 4).next(1000, 0, 0)), HasSubstr("asked for"));
 }
 
+TEST(Schedule, AdvisesTheMostConfigurationsThatFit) {
+  Scenario scenario = with_budget(1000);
+  scenario.nb_configurations = 112;
+  EXPECT_THAT(reason(Schedule(scenario, 4).next(1000, 0, 0)), HasSubstr("asked for"));
+  // The last of four iterations may use all: 1000 / (5 + 4).
+  EXPECT_THAT(Schedule(scenario, 4).advice_for_first_race(1000), HasSubstr("allow 111)"));
+  scenario.nb_configurations = 111;
+  EXPECT_EQ(reason(Schedule(scenario, 4).next(1000, 0, 0)), "a race");
+  EXPECT_EQ(Schedule(scenario, 4).advice_for_first_race(1000), "");
+  scenario.nb_experiments_per_iteration = 100;
+  EXPECT_THAT(Schedule(scenario, 4).advice_for_first_race(1000), HasSubstr("allow 16)"));
+  scenario.nb_configurations = 16;
+  EXPECT_EQ(reason(Schedule(scenario, 4).next(1000, 0, 0)), "a race");
+}
+
 TEST(Schedule, EndsWithTheBudget) {
   Scenario scenario = with_budget(1000);
   Schedule schedule(scenario, 4);

@@ -107,6 +107,26 @@ TEST(Annealing, CountsTemperaturesInStandardDeviations) {
     EXPECT_EQ(few[i].parent, many[i].parent);
 }
 
+/// The smallest machine, which is not random, may cost far more than they do.
+TEST(Annealing, TakesItsScaleFromRandomConfigurationsAlone) {
+  const Configuration smallest =
+      only<ConfigurationSampled>(
+          play(*started(weights_space(1), annealing(), 1000), noisy_sphere).events)
+          .front()
+          .configuration;
+  const auto cost = [&](const Configuration& c, const Experiment&) {
+    return c == smallest ? 1e6 : 1 + std::fabs(c[0]);
+  };
+  for (const bool at_random : {false, true}) {
+    SearchOptions options = annealing(1e-3);
+    std::get<AnnealingOptions>(options).end_temperature = 1e-3;
+    std::get<AnnealingOptions>(options).start_at_random = at_random;
+    const auto [walked, steps] =
+        walked_of_steps(play(*started(weights_space(1), options, 4000), cost));
+    EXPECT_LT(walked, steps * 3 / 4) << at_random;
+  }
+}
+
 TEST(Annealing, CannotBeExtendedAndSaysWhy) {
   auto search = started(weights_space(3), annealing(), 1000);
   play(*search, noisy_sphere);

@@ -82,6 +82,40 @@ TEST(RandomSearch, DrawsFromEverySpace) {
     EXPECT_TRUE(search->space().check(search->configuration(elite.configuration)));
 }
 
+/// Each draw fails with a chance of 1 in 300, so the first budget seldom meets a failure, and the
+/// second does.
+TEST(RandomSearch, AnExtensionThatFailsIsTheLast) {
+  std::vector<Parameter> parameters;
+  parameters.push_back({"x", "", Real{0.0, 1.0}, {}});
+  parameters.push_back(
+      {"y",
+       "",
+       Real{0.0, Expression::call(Operation::Subtract,
+                                  {Expression::parameter("x"), Expression::number(0.003)})},
+       {}});
+  const ParameterSpace space = ParameterSpace::make(std::move(parameters), {}, 4).value();
+  int failed = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Scenario scenario;
+    scenario.max_experiments = 300;
+    scenario.n_instances = 1;
+    scenario.seed = seed;
+    auto begun = start_search(space, scenario, options_of(SearchKind::Random));
+    if (!begun) continue;
+    const std::unique_ptr<Search> search = std::move(*begun);
+    play(*search, noisy_sphere);
+    if (search->failure()) continue;
+    const auto elites = std::vector<Elite>(search->elites().begin(), search->elites().end());
+    const auto extended = search->extend(60'000);
+    if (extended) continue;  // fails later
+    ++failed;
+    EXPECT_TRUE(search->finished());
+    EXPECT_EQ(search->elites().size(), elites.size());
+    EXPECT_EQ(to_string(search->extend(60'000).error()), to_string(extended.error()));
+  }
+  EXPECT_GT(failed, 0);
+}
+
 TEST(FRace, IsOneRaceThatEndsWithOneOrItsBudget) {
   auto search = started(weights_space(3), options_of(SearchKind::FRace), 4000);
   const Played played = play(*search, noisy_sphere);
