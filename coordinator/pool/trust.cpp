@@ -485,7 +485,12 @@ std::size_t Trust::proven_present() const {
 
 void Trust::forget(std::uint32_t campaign) {
   const auto is_of = [&](PackedKey key) { return campaign_of(key) == campaign; };
-  std::erase_if(disputed_, [&](const auto& each) { return is_of(each.first); });
+  std::erase_if(disputed_, [&](const auto& each) {
+    if (!is_of(each.first)) return false;
+    for (const Dispute& dispute : each.second)
+      let_go(dispute.other);
+    return true;
+  });
   for (const Case& one : cases_.forget(campaign)) {
     for (const Said& said : one.said)
       let_go(said);

@@ -110,9 +110,14 @@ void Trust::ask_referee() {
 void Trust::on_disputed(PackedKey key, const std::optional<Task>& task, TimePoint now) {
   book_->now = now;
   const auto found = disputed_.extract(key);
-  if (!found || book_->is_stopped(campaign_of(key))) return;
+  if (!found) return;
+  const bool is_stopped = book_->is_stopped(campaign_of(key));
   for (const Dispute& dispute : found.mapped()) {
     const Said& other = dispute.other;
+    if (is_stopped) {
+      let_go(other);
+      continue;
+    }
     // A campaign that is over needs no results.
     if (task || book_->is_closed(campaign_of(key))) book_->act(OutcomeRepeated{key, other.worker});
     if (!task) {

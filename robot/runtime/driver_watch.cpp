@@ -271,7 +271,7 @@ void DriverWatch::set_listeners(std::vector<Listener> listeners, TimePoint now) 
 void DriverWatch::begin(TimePoint start) {
   runs_ = true;
   // From the start, not from now: the treads need not obey before the agreed instant.
-  begun_ = obeyed_ = replaced_ = start;
+  begun_ = obeyed_ = replaced_ = changed_ = start;
   unobeyed_since_ = unobeyed_at_ = {};
   unobeyed_ = unobeyed_before_ = {};
   held_.reset();

@@ -250,7 +250,8 @@ void RobotNode::arm(const Order& order, const Now& now) {
   // A start that is recorded and sent again must not move the robot (ROS facts, 3.7). The names of
   // logs also need runs with different names.
   if (runs_.contains(order.run)) {
-    refused_ = "the robot has already had a run " + order.run + "; a new run needs a new name";
+    refused_ =
+        "the robot has already had an order for run " + order.run + "; a new run needs a new name";
     return;
   }
   for (const std::string& reason : not_ready(now.clock))
@@ -299,7 +300,7 @@ void RobotNode::begin(std::string run, std::int64_t seed, std::int64_t cycles, c
   // The simulator has the same stream for a seed and an index; that is why a run in lock-step can
   // have the same bits as `evaluate` (docs/robot-messages.md, "Lock-step").
   control_.emplace(*controller_, fitted_, control_stream(seed, settings_.robot_index));
-  cycle_ = stepped_ = held_ = skipped_ = late_readings_ = cut_ = 0;
+  cycle_ = stepped_ = held_ = skipped_ = cut_ = 0;
   held_for_ = {};
   by_driver_ = by_operator_ = {};
   driver_failed_ = false;
@@ -440,7 +441,6 @@ Decision RobotNode::run_cycle(const ControlClock::Beat& beat, const Now& now) {
   late.fill(settings_.late);
   // The machine gets the last reading; only the log shows that it was old.
   const auto old = silence(now.clock, late);
-  if (old) ++late_readings_;
   sensed_ = feeds_.sensed();
   // The real time, not k periods, so that turns by seconds have the right length after a skipped
   // cycle.

@@ -198,7 +198,6 @@ class RobotNode {
   std::int64_t stepped_ = 0;
   std::int64_t held_ = 0;
   std::int64_t skipped_ = 0;
-  std::int64_t late_readings_ = 0;
   std::int64_t cut_ = 0;
   Standing by_driver_;
   Standing by_operator_;
@@ -207,7 +206,7 @@ class RobotNode {
   PerFeed<Duration> longest_silence_{};
   std::string broken_;  ///< why the run failed or was stopped
   TimePoint last_tick_;
-  std::set<std::string, std::less<>> runs_;  ///< runs that began here
+  std::set<std::string, std::less<>> runs_;  ///< runs that were ordered here
   bool log_lost_ = false;
   RunVerdict verdict_ = RunVerdict::Valid;
   std::vector<std::string> reasons_;

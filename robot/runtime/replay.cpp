@@ -100,9 +100,9 @@ Expected<LogReplay> replay_log(const RunRecord& record) {
     ++replay.stepped;
     SWARMSMITH_ASSERT(replay.stepped <= row.cycle, "a controller steps at most once a cycle");
     // The log has the speeds that were sent, after the node's limit.
-    const auto sent = within_limits(wanted, head.max_mps);
-    if (!sent) continue;  // the node stopped, and has logged this
-    const std::string what = difference(row, *sent, control.state(), control.drawn());
+    // If they are not finite, the node has stopped the treads.
+    const Command sent = within_limits(wanted, head.max_mps).value_or(Command{});
+    const std::string what = difference(row, sent, control.state(), control.drawn());
     if (what.empty()) continue;
     replay.difference = {row.cycle, what};
     return replay;

@@ -1,3 +1,6 @@
+#include <map>
+#include <string>
+
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/design/plans.h"
@@ -207,6 +210,19 @@ TEST_F(StoredCampaign, SumsThatAreNotThoseOfTheScoresAreFound) {
         complaints_after("first", std::string(sql) +
                                       " candidate = (SELECT min(candidate) FROM candidate_totals)"),
         Contains(HasSubstr("the store's sums of")));
+}
+
+TEST_F(StoredCampaign, WrongSumsOfOneDesignHideNoneOfTheNext) {
+  go_on("first", 1, 0.3);
+  std::map<std::string, int> of_design;
+  for (const std::string& what :
+       complaints_after("first", "UPDATE candidate_totals SET score_sum = score_sum + 1")) {
+    if (what.find("the store's sums of") != std::string::npos)
+      ++of_design[what.substr(0, what.find(':'))];
+  }
+  EXPECT_GE(of_design.size(), 2U);
+  for (const auto& [design, count] : of_design)
+    EXPECT_EQ(count, 20) << design;
 }
 
 TEST_F(StoredCampaign, ACandidateAfterAGapIsFound) {

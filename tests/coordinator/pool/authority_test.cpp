@@ -402,6 +402,32 @@ TEST_F(Authority, GivesNothingMoreToWhoDisputesManyKnownResults) {
       << "no further dispute";
 }
 
+/// Its claims would keep the worker from tasks of other campaigns for ever.
+TEST_F(Authority, DisputesOfACampaignThatIsOverAreNoClaims) {
+  const auto claims = [&] { return scheduler.principals().all().at(name_of(1)).claims; };
+  hello(1);
+  give(1, 1);
+  answer(1, 1, 3);
+  resend(1, 1, 4);
+  EXPECT_EQ(claims(), 1);
+  scheduler.forget(1);  // another campaign
+  EXPECT_EQ(claims(), 1);
+  scheduler.forget(0);
+  EXPECT_EQ(claims(), 0);
+}
+
+TEST_F(Authority, DisputesOfACampaignThatWasStoppedAreNoClaims) {
+  hello(1);
+  give(1, 1, 2);
+  answer(1, 1, 3);
+  resend(1, 1, 4);
+  answer(1, 2, 0, "not a number");
+  rule({.key = key(2), .kind = Ruling::Kind::NoWord, .reason = "no memory"});
+  ASSERT_EQ(all<StopCampaign>().size(), 1U);
+  scheduler.on_disputed(key(1), task_of(1), now);
+  EXPECT_EQ(scheduler.principals().all().at(name_of(1)).claims, 0);
+}
+
 TEST_F(Authority, StopsWhereTheRefereeCannotSay) {
   hello(1);
   give(1, 1);

@@ -325,6 +325,26 @@ TEST(DriverWatch, ADriverThatDoesNotDoWhatIsCommandedForAMomentIsFound) {
   }
 }
 
+TEST(DriverWatch, ADriverThatNeverMovesIsOffSinceTheStartAtMost) {
+  DriverWatch watch({});
+  const TimePoint start{std::chrono::hours(24)};
+  TimePoint clock = start;
+  watch.set_listeners({{"driver", clock}}, clock);
+  watch.hear(DrivenMessage{{clock, 0}, 0, 0, "driver"});
+  watch.begin(clock);
+  bool is_troubled = false;
+  for (int cycle = 0; cycle < 300; ++cycle) {
+    const Command wanted = cycle % 4 == 0 ? kStraight : Command{};
+    watch.commanded(clock, wanted.left_mps, wanted.right_mps);
+    clock += milliseconds(60);
+    watch.hear(DrivenMessage{{clock, 0}, 0, 0, "driver"});
+    clock += milliseconds(40);
+    is_troubled |= watch.trouble(clock).has_value();
+  }
+  EXPECT_TRUE(is_troubled);
+  EXPECT_LE(watch.longest_off(), clock - start);
+}
+
 TEST(DriverWatch, ADriverThatStandsForAMomentEndsNoRunThoughNoStopWasCommanded) {
   const Played played =
       play([](int) { return kStraight; }, [](int k) { return k < 306 ? Command{} : kStraight; });

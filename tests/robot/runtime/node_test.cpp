@@ -90,7 +90,7 @@ TEST(RobotNode, TakesAnotherStartAfterARunAndEachNameOnce) {
   robot.cycles(12);
   ASSERT_EQ(robot.state().phase, Phase::Ended);
   robot.node.hear(robot.order(Order::Kind::Start), robot.now());
-  EXPECT_THAT(robot.state().refused, HasSubstr("has already had a run"));
+  EXPECT_THAT(robot.state().refused, HasSubstr("has already had an order for run"));
   EXPECT_EQ(robot.state().phase, Phase::Ended);
   robot.run = "run08";
   Order order = robot.order(Order::Kind::Start);

@@ -54,9 +54,11 @@ TEST(LogReplay, GivesEachCommandOfEveryArchitectureAgain) {
   }
 }
 
-TEST(LogReplay, PassesOverSpeedsThatAreNotNumbers) {
+TEST(LogReplay, PassesOverSpeedsThatAreNotNumbersIfTheTreadsStood) {
   RunRecord record = record_of("--nstates 1 --s0 2 --att0 2", TurnClock::Cycles);
-  record.rows[40].sensed.neighbours = {{.distance_m = std::nan("")}};  // the node logged a stop
+  record.rows[40].sensed.neighbours = {{.distance_m = std::nan("")}};
+  EXPECT_THAT(value_of(replay_log(record)).difference.value().what, HasSubstr("gives 0 and 0 m/s"));
+  record.rows[40].command.left_mps = record.rows[40].command.right_mps = 0;
   const auto replay = value_of(replay_log(record));
   EXPECT_FALSE(replay.difference) << replay.difference->cycle << replay.difference->what;
   EXPECT_EQ(replay.stepped, record.head.end->stepped);
