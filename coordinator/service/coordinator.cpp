@@ -256,6 +256,7 @@ Expected<std::string> Coordinator::obey(std::uint32_t index, const pb::Command& 
   if (is_of_leases(row.kind)) return pause(index, row);
   if (auto done = campaign.source->carry_out(row); !done) return Unexpected(done.error());
   ++campaign.commands;
+  // A cancelled design drops its tasks, and an extended one has work to look ahead at again.
   campaign.told = true;
   campaign.sees_no_further = false;
   const std::string name = to_string(row.design);
@@ -483,6 +484,7 @@ bool Coordinator::look_ahead() {
 
 std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
   scheduler_.on_time(now);
+  // Leases make messages, and outcomes make new tasks, so both are repeated until nothing changes.
   do {
     while (progress(now)) {
     }
@@ -531,6 +533,8 @@ void Coordinator::append(std::uint32_t index) {
   rows.insert(rows.end(), std::make_move_iterator(campaign.own_rows.begin()),
               std::make_move_iterator(campaign.own_rows.end()));
   campaign.own_rows.clear();
+  // Each store names the workers of its evaluations, so each gets the pool's rows. They are last,
+  // so that the caller can tell them apart by their number.
   rows.insert(rows.end(), pool_rows_.rows().begin(), pool_rows_.rows().end());
   std::vector<SendFrame> replies = std::exchange(campaign.replies, {});
   if (rows.empty()) {
@@ -565,6 +569,8 @@ void Coordinator::on_committed(std::uint32_t index, std::uint64_t ticket) {
   while (!appended.empty() && appended.front().ticket <= ticket) {
     for (const PackedKey key : appended.front().keys) {
       const auto at = waiting_.find(key);
+      // A row comes again when a race uses a score that was made ahead. It was acknowledged with
+      // its first row.
       if (at == waiting_.end()) continue;
       keys[at->second.first].push_back(key);
       for (const WorkerNumber other : at->second.others)

@@ -152,6 +152,8 @@ class Pages final : public HttpServer {
       response.set_header("Allow", allowed);
       return no(405, "bad_method", std::string("only ") + allowed);
     }
+    // Before any token: the page of another site can make the browser ask here under the site's own
+    // name (DNS rebinding, docs/security.md).
     if (!is_our_name(request.get_header_value("Host"))) {
       return no(421, "other_host",
                 "the Host header names another host: use the address that was printed, or start "

@@ -122,6 +122,7 @@ void ProgressModel::add_test(DesignProgress& progress, const EvaluationRow& row)
   if (row.key.purpose != Purpose::Test || row.status != EvaluationStatus::Ok) return;
   TestedDesign& tested = progress.tests[row.key.candidate];
   ++tested.runs;
+  // A running mean: a process that resumes gets mean and number from the store, without the scores.
   tested.mean += (row.measured.score - tested.mean) / static_cast<double>(tested.runs);
 }
 

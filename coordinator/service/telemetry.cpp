@@ -13,6 +13,7 @@ constexpr Duration kPointEvery = std::chrono::milliseconds(90);
 double RateWindow::update(TimePoint now, std::int64_t count) {
   if (points_.empty() || now - points_.back().first >= kPointEvery)
     points_.emplace_back(now, count);
+  // Two points always stay, even if both are older than the window: a rate needs two.
   while (points_.size() > 2 && now - points_.front().first > window_)
     points_.pop_front();
   const double seconds = std::chrono::duration<double>(now - points_.front().first).count();
