@@ -58,6 +58,7 @@ CampaignRow campaign_row(const Campaign& campaign) {
 }
 
 std::int64_t repetitions_of(const Campaign& campaign, const Method& method) {
+  // A given machine is one design, because all its repetitions would be the same.
   const bool is_given = !method.baseline.empty() && method.baseline != kRandomMachine;
   return is_given ? 1 : campaign.repetitions;
 }

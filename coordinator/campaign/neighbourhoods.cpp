@@ -240,6 +240,8 @@ class MachineOperators {
 
   bool remove_transition() {
     const auto place = any_transition();
+    // The state that it leaves must keep a transition that leaves it, and the state that it enters
+    // one that enters it.
     if (!place || states_[place->state].transitions.size() < 2) return false;
     int incoming = 0;
     for (const State& state : states_) {

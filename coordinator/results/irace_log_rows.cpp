@@ -149,6 +149,7 @@ void Rows::add_pairs_and_evaluations() {
     total.candidate = id_of(run.configuration);
     total.runs += rejected ? 0 : 1;
     total.score_sum += value;
+    // A cost may be as large as 1e300, and a store takes only finite numbers.
     total.score_squares =
         std::min(total.score_squares + value * value, std::numeric_limits<double>::max());
   }
@@ -166,6 +167,7 @@ void Rows::add_pairs_and_evaluations() {
 
 void Rows::add_eliminations(const std::vector<LogStep>& steps, std::size_t at,
                             std::int64_t number) {
+  // A race ends with its elites: all others are dropped at its last step, whatever its test said.
   const bool is_last = at + 1 == steps.size();
   const std::vector<std::int64_t> kept =
       is_last ? races_.elites_of(steps[at].iteration) : steps[at + 1].alive;

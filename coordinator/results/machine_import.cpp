@@ -284,6 +284,7 @@ OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
   digest.add("machines");
   digest.add(known.flavour.name);
   Repetitions repetitions(known.designs);
+  // Known designs are sorted by id.
   std::int64_t id = known.designs.empty() ? 0 : known.designs.back().id.value;
   std::map<std::pair<std::string, std::string>, std::string> names;
   Worlds worlds;

@@ -43,6 +43,7 @@ Expected<ScoreLedger> ScoreLedger::read(StoreReader& store) {
       std::int64_t& last = ledger.last_pair_[design];
       last = std::max(last, known.key.pair);
     }
+    // Its pair is taken all the same: other candidates of the design may have a score on it.
     if (row[6].type == StoreReader::Cell::Type::Null) return;  // rejected: no score
     ledger.scores_.emplace(Place{candidate, source, seed, known.instance}, known);
   };
@@ -58,6 +59,7 @@ Expected<ScoreLedger> ScoreLedger::read(StoreReader& store) {
 
 ScoreLedger::Scores::const_iterator ScoreLedger::at(const ScorePlace& place) const {
   constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min();
+  // Places are sorted by their instances last, so this is the first one with the seed.
   const auto found = scores_.lower_bound(
       Place{place.candidate, place.source, place.seed, place.instance.value_or(kFirst)});
   if (found == scores_.end()) return found;

@@ -364,6 +364,7 @@ Expected<void> Reading::read_runs() {
         }
       });
   if (!read) return read;
+  // In this order: a race caps the costs that the evaluator gave.
   judge();
   if (auto capped = cap(); !capped) return capped;
   sort_runs();

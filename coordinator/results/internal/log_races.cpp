@@ -51,6 +51,8 @@ std::vector<LogStep> LogRaces::steps_of(std::int64_t iteration) const {
   }
   for (LogStep& step : steps) {
     for (const std::int64_t racer : racers) {
+      // An elite does not run again on pairs of earlier iterations: it has a score there, but no
+      // run in this iteration. A rejected run is a run without a score.
       if (ran.contains({racer, step.pair}) || score(racer, step.pair)) step.alive.push_back(racer);
     }
   }
@@ -83,12 +85,14 @@ double LogRaces::rank_sum(const std::vector<LogStep>& steps, std::size_t at,
     double equal = 0;
     for (const std::int64_t other : steps[at].alive) {
       const auto value = score(other, steps[i].pair);
+      // Without a score is the worst rank, which all such configurations share.
       if (value == own) {
         ++equal;
       } else if (value && (!own || *value > *own)) {
         ++better;
       }
     }
+    // `equal` counts the configuration itself: alone, its rank is better + 1.
     sum += better + (equal + 1) / 2;
   }
   return sum;
