@@ -76,6 +76,8 @@ std::string moved(std::string_view table, const std::string& column, const Move&
     return "(SELECT m.id FROM main.source AS m JOIN other.source AS s ON s.name = m.name"
            " WHERE s.id = t.source)";
   }
+  // `row_check` among them: it covers the candidate's number in its design, and none of the numbers
+  // that change here.
   return column;
 }
 

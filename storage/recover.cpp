@@ -114,6 +114,8 @@ class SqliteRecovery final : public Recovery {
     for (const TableFind& table : found.tables)
       found_.tables.push_back(
           {table.name, table.rows, table.lost_pages, table.broken, table.tree_is_lost});
+    // Before any row is removed: only tables with as many rows as were committed can show whether
+    // values were changed.
     if (const auto written = RowSums::stored(connection_)) {
       const RowSums there = RowSums::found(connection_);
       for (const Changed table : kNotDerived)

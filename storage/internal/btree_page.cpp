@@ -94,6 +94,8 @@ std::optional<std::vector<StoredValue>> values_of(Bytes payload) {
 std::optional<std::vector<std::uint8_t>> payload_of(const PageImage& image, Bytes cell,
                                                     std::uint64_t size, bool has_rowids,
                                                     std::uint64_t& chained) {
+  // The sizes of https://www.sqlite.org/fileformat2.html#b_tree_pages: `most` is X there, `least`
+  // is M, and `kept` is K. All bytes of a page count as usable, since stores reserve none.
   const std::uint64_t usable = image.page_size();
   const std::uint64_t most = has_rowids ? usable - 35 : (usable - 12) * 64 / 255 - 23;
   const std::uint64_t least = (usable - 12) * 32 / 255 - 23;

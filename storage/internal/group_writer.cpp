@@ -133,6 +133,7 @@ void GroupWriter::run(const std::stop_token& stop) {
     if (!changed_.empty()) return leave(committed_);
     const bool done = !group.empty() && trouble.empty();
     const std::uint64_t ticket = done ? group.back().ticket : committed_;
+    // After the commit: what was committed to a file that has lost its name is in the saved copy.
     if (const std::string fate = writer_.file.fate(); !fate.empty()) return lose(fate, ticket);
     if (done) {
       group.clear();

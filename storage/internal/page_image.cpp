@@ -114,6 +114,8 @@ void PageImage::read_log(const std::vector<std::uint8_t>& log) {
   const std::uint64_t size = big_endian(log, 8, 4);
   if ((magic | 1U) != 0x377f0683 || !is_page_size(size)) return;
   if (has_header_ && size != page_size_) return;
+  // The last bit of the magic number is the byte order of the checksums
+  // (https://www.sqlite.org/fileformat2.html#walformat).
   LogSum sum((magic & 1U) != 0);
   const Bytes all(log);
   sum.add(all.first(24));

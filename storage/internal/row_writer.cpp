@@ -181,6 +181,7 @@ void RowWriter::put(const EvaluationRow& row) {
 
 void RowWriter::put(const UnusedRow& row) {
   const std::int64_t purpose = number(row.key.purpose);
+  // Before the update, which removes the iteration that the hash covers.
   take_away(Table::Used, used_cells_, row.key.candidate.value, purpose, row.key.pair);
   unused_.run(row.key.candidate.value, purpose, row.key.pair);
 }

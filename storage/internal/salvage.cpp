@@ -78,6 +78,8 @@ class Salvager {
       finds_[table].tree_is_lost = root == roots_.end();
       if (root != roots_.end()) walk(table, root->second, on_row);
     }
+    // After the trees: a tree says to which table its pages belong, and for a stray page this is a
+    // guess.
     for (const std::uint32_t number : numbers_) {
       if (!seen_.contains(number)) take_stray(number, on_row);
     }
