@@ -201,6 +201,7 @@ ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word,
   const auto written = (*store)->rescore_real_run(kept->id, again->rows);
   store->reset();
   if (!written) return fail(output, ExitCode::Store, written.error());
+  // Read again, because the store decides whether an override still counts after this scoring.
   const auto now = kept_run(kept->store, word);
   if (!now) return fail(output, now.error());
   RunFindings findings = again->run.findings();

@@ -83,6 +83,7 @@ Expected<std::string> sha256_of_source(const std::string& word) {
   const std::string file = file_of_source(word);
   auto sha256 = sha256_of_file(file);
   if (!sha256 || file == word) return sha256;
+  // Two topics of one bag are films of two cameras, so the topic is a part of the digest.
   return sha256_of(*sha256 + "  " + word.substr(file.size()) + "\n");
 }
 

@@ -97,6 +97,8 @@ std::vector<Vector6> starts_of(const Corners& corners, const CameraModel& camera
   for (const Ray& ray : rays_of(camera, corners.seen))
     rays.emplace_back(ray.x, ray.y);
   std::vector<Vector6> starts;
+  // A plane seen from far away has two poses with similar errors. IPPE (Collins and Bartoli 2014)
+  // returns both; all starts are refined, and `fit_place` takes the best.
   for (const auto method : {cv::SOLVEPNP_IPPE, cv::SOLVEPNP_SQPNP}) {
     std::vector<cv::Mat> turns;
     std::vector<cv::Mat> shifts;

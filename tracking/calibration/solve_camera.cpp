@@ -144,6 +144,8 @@ std::optional<std::size_t> outlier_of(const std::vector<SolvedView>& views,
   for (const std::size_t i : used)
     all.push_back(views[i].rms_px);
   const double median = upper_median(std::move(all));
+  // Only the worst view is dropped before the next fit, because a bad view also changes the errors
+  // of the others.
   const std::size_t worst =
       *std::ranges::max_element(used, {}, [&](std::size_t i) { return views[i].rms_px; });
   const double limit = std::max(kOutlier * median, kGoodView_px);

@@ -44,11 +44,14 @@ std::optional<SpinFit> fit_spin(const std::vector<TagSample>& samples) {
     const double c = std::cos(sample.tag.theta);
     const double s = std::sin(sample.tag.theta);
     const double t = sample.time_s - middle;
+    // tag = centre + drift * t + rotation(theta) * offset is linear in the six unknowns, so it
+    // needs no start and no iteration.
     a.middleRows<2>(2 * i) << 1, 0, c, -s, t, 0, 0, 1, s, c, 0, t;
     b.segment<2>(2 * i) << sample.tag.x, sample.tag.y;
   }
   const Matrix6 normal = a.transpose() * a;
   const Eigen::SelfAdjointEigenSolver<Matrix6> axes(normal);
+  // If the heading hardly changes, the centre and the offset cannot be told apart.
   if (!(axes.eigenvalues()(0) > 1e-9 * axes.eigenvalues()(5))) return std::nullopt;
   SpinFit fit;
   fit.inverse = normal.inverse();
@@ -151,6 +154,7 @@ Expected<TravelYaw> solve_yaw(std::span<const TagSample> samples, const TagOffse
   }
   travel.yaw_rad = std::atan2(sine, cosine);
   const double length = std::hypot(sine, cosine) / count;
+  // The circular standard deviation, sqrt(-2 ln R) (Mardia 1972); rounding may make R exceed 1.
   travel.spread_rad = std::sqrt(std::max(0.0, -2 * std::log(std::min(1.0, length))));
   if (!(travel.spread_rad <= kMostSpread_rad)) {
     return refuse(

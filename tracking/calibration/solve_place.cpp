@@ -133,6 +133,7 @@ Expected<PlaceCalibration> solve_place(const PlaceQuestion& question) {
                               "light, and that nothing covers them",
                               count, question.limits.least_tags));
   }
+  // Tags in one line hardly determine the camera's tilt about this line.
   if (are_in_line(question.seen)) {
     return refuse(IssueCode::ReferenceTags,
                   "the visible floor tags lie in one line; put some beside it, near the walls");

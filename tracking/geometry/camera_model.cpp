@@ -83,6 +83,7 @@ bool is_monotonic(const CameraModel& camera) {
   constexpr double kMost = 10;
   double r = 0;
   while (r < kMost) {
+    // Where the radius stops growing, two rays share a pixel, and `rays_of` has no single answer.
     if (slope(camera, r) <= 0) return false;
     if (distorted(camera, r) >= wanted) return true;
     r += kStep;

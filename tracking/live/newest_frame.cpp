@@ -29,6 +29,7 @@ NewestFrame::~NewestFrame() {
 bool NewestFrame::wait_for_turn(double time_s) {
   std::unique_lock lock(mutex_);
   if (source_->info().is_live) return !stopping_;
+  // A file is played at its own speed, so that its delays are those of a camera.
   const auto turn = *began_ + std::chrono::duration_cast<Clock::duration>(
                                   std::chrono::duration<double>(time_s - first_s_));
   return !changed_.wait_until(lock, turn, [this] { return stopping_; });

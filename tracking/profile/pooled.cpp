@@ -49,6 +49,8 @@ Pooled pooled(std::span<const Estimate> estimates) {
     heterogeneity += (one.value - fixed) * (one.value - fixed) / square(one);
     weights2 += 1 / (square(one) * square(one));
   }
+  // DerSimonian and Laird's moment estimator of the variance between robots and runs: Cochran's Q
+  // minus its expectation without such a variance, cut off at 0.
   const double scale = weights - weights2 / weights;
   const double variance =
       estimates.size() < 2 ? 0 : std::max(0.0, (heterogeneity - (count - 1)) / scale);
@@ -63,6 +65,8 @@ Pooled pooled(std::span<const Estimate> estimates) {
       const double off = one.value - result.mean;
       squares += off * off / (square(one) + variance);
     }
+    // Hartung and Knapp's variance. It may be too small by chance if there are few estimates, so it
+    // only replaces a smaller error.
     result.error = std::max(result.error, std::sqrt(squares / (count - 1) / weights));
     half = student_t_upper_quantile(kTail, count - 1) * result.error;
   }

@@ -54,7 +54,7 @@ void draw_dropped(Svg& svg, const TrackedRobot& robot, const Axis& axis, double 
   svg.bars(marks, 0.3, kDropped, BarDirection::Down);
 }
 
-/// The issues with a time, once per code, robot and time.
+/// The issues with a time, the earliest ones first and at most twelve.
 std::vector<const Issue*> timed(const std::vector<Issue>& issues) {
   std::vector<const Issue*> found;
   for (const Issue& issue : issues)

@@ -117,12 +117,16 @@ Fit fit_of(const std::vector<LoggedRobot>& robots, double rate, double shift_s) 
       length += one.to_s - one.from_s;
     }
   }
+  // The likelihood counts independent pairs, not all; otherwise a film with many frames would be
+  // too sure of its rate.
   count = length / kIndependent_s;
   Fit fit;
   for (std::size_t i = 0; i < told.size(); ++i) {
     if (!(told.at(i) > 0 && seen.at(i) > 0)) continue;
     const double correlation = both.at(i) / std::sqrt(told.at(i) * seen.at(i));
     fit.correlation = std::max(fit.correlation, correlation);
+    // 1 - r^2 is the share of the motion that the commands do not explain. A negative r is worse
+    // than none, because no robot drives against its own commands.
     const double left = std::max(1 - correlation * std::fabs(correlation), 1e-4);
     fit.likelihood -= count / 2 * std::log(left);
   }

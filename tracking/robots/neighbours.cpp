@@ -79,6 +79,8 @@ class Count {
     for (std::size_t other = 0; other < poses->size(); ++other) {
       if (other == of_.robot) continue;
       const Point place = (*poses)[other].position();
+      // This comes before the check of the range: a neighbour that is seen at the edge of the range
+      // is no chance, but no phantom either.
       const bool is_seen = take(seen, place);
       if (hypot(place.x - own.x, place.y - own.y) > kNeighbourRange_m - kEdge_m) continue;
       ++block.there;
@@ -114,6 +116,8 @@ class Count {
                   kNeighbourRange_m - kEdge_m, counted(result.there, "cycle"),
                   counted(blocks, "span"), kBlock_s, kLeastChances, kLeastBlocks)};
     }
+    // The variance of a ratio estimator over blocks, as if the blocks were the sample: cycles that
+    // follow each other are not independent.
     double squares = 0;
     for (const auto& [number, block] : blocks_)
       squares += std::pow(block.seen - seen / there * block.there, 2);

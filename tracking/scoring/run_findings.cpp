@@ -91,6 +91,7 @@ CameraFinding camera_finding(const Rig& rig, const CameraRecord& record) {
   }
   finding.looks = static_cast<std::int64_t>(shifts.size());
   for (const auto& [time, of_tags] : shifts) {
+    // The median: a camera that moves shifts all floor tags, and a tag that was kicked only itself.
     const double shift = of_tags.empty() ? 0 : median_of(of_tags);
     if (shift <= finding.worst_shift_px) continue;
     finding.worst_shift_px = shift;
