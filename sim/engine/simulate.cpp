@@ -253,8 +253,8 @@ class Run {
     send(agent, agent.command, arrival, now);
   }
 
-  /// RobotClock keeps the order of commands, so the queue is sorted by arrival. Of
-  /// commands that arrive at the same sub-step only the last one counts.
+  /// RobotClock keeps the order of commands, so the queue is sorted by arrival. Of commands that
+  /// arrive at the same sub-step only the last one counts.
   static void send(Agent& agent, const Command& command, std::int64_t arrival, std::int64_t now) {
     if (arrival == now && agent.late.empty()) {
       renew_treads(agent.acting, command);
