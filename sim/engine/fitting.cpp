@@ -60,6 +60,7 @@ std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot) {
 }
 
 std::optional<std::string> misfit(const Profile& profile, const Robot& robot) {
+  // A value that is ideal does nothing on any robot, so profiles for all robots may contain it.
   static const Profile kIdeal;
   IdleFields fields(robot);
   visit_profile_fields(kIdeal, fields);

@@ -20,6 +20,8 @@ class RangeDrawer {
   void number(std::string_view key, double& value, FieldLimits) {
     const auto range = std::ranges::find(*ranges_, device_ + std::string(key), &FieldRange::field);
     if (range == ranges_->end()) return;
+    // Each range has its own stream: one more range does not change the numbers of the others. That
+    // of a run does not depend on the robot, so all robots draw the same number.
     Rng stream = range->of_run ? run_->split("run " + range->field)
                                : run_->split("robot " + range->field, robot_);
     value = stream.uniform(range->least, range->most);

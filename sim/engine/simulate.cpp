@@ -66,6 +66,8 @@ bool has_range(const Profile& profile, std::string_view begin) {
       profile.ranges, [&](const FieldRange& range) { return range.field.starts_with(begin); });
 }
 
+/// Each draw has its own stream, so that slip changes no other noise of the run. A negative
+/// fraction would drive against the command.
 Grip grip_of_run(const Treads& treads, const Rng& run, int robot) {
   Rng way = run.split("way", static_cast<std::uint64_t>(robot));
   Rng turn = run.split("turn", static_cast<std::uint64_t>(robot));
@@ -251,6 +253,8 @@ class Run {
     send(agent, agent.command, arrival, now);
   }
 
+  /// RobotClock keeps the order of commands, so the queue is sorted by arrival. Of commands that
+  /// arrive at the same sub-step only the last one counts.
   static void send(Agent& agent, const Command& command, std::int64_t arrival, std::int64_t now) {
     if (arrival == now && agent.late.empty()) {
       renew_treads(agent.acting, command);

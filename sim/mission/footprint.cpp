@@ -41,6 +41,7 @@ bool circle_overlaps(const Footprint& circle, const Footprint& other) {
   return is_left;
 }
 
+/// Extents that only touch have a gap, too: bodies may stand side by side.
 bool gap_between(Footprint::Extent a, Footprint::Extent b) {
   return a.most <= b.least || b.most <= a.least;
 }

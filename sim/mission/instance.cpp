@@ -103,6 +103,8 @@ Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
                          mission.name);
       }
       const Point point = std::visit(draw_point, mission.placement);
+      // Rejection sampling: each try draws place and heading anew, so that all free poses are
+      // equally likely.
       const Pose pose{point.x, point.y, wrap_angle(rng.uniform(0, 2 * kPi))};
       const Footprint body(mission.robot.body.outline, pose);
       if (!ground.blocked_by(body).empty()) continue;
@@ -135,6 +137,8 @@ Expected<std::vector<Patch>> draw_patches(const ShuffledPatches& shuffled, Rng r
 
 Expected<Instance> instance_of(const Mission& mission, std::int64_t seed) {
   const Rng rng(static_cast<std::uint64_t>(seed));
+  // Separate streams: the patches of a seed do not depend on how many places were tried for robots,
+  // and stay the same if a table gives the starts.
   Expected<std::vector<Pose>> starts = draw_starts(mission, rng.split("placement"));
   if (!starts) return Unexpected(std::move(starts.error()));
   Expected<std::vector<Patch>> patches = draw_patches(mission.shuffled, rng.split("patches"));

@@ -127,6 +127,7 @@ Expected<std::vector<Pose>> explicit_starts(const Mission& mission, std::int64_t
                          std::to_string(starts.size()),
                      where);
   }
+  // Only centres are checked: starts of other simulators may overlap (`has_overlaps` finds those).
   for (std::size_t i = 0; i < starts.size(); ++i) {
     if (!is_inside(mission.arena, starts[i].position())) {
       return bad_input("robot " + std::to_string(i) + " is outside the arena", where);
@@ -183,7 +184,7 @@ Expected<std::vector<Patch>> explicit_patches(const Mission& mission, std::int64
     Patch& laid = patches.emplace_back();
     laid.shape = *place;
     laid.color = patch.color;
-    free.erase(place);
+    free.erase(place);  // a second patch at this place is an error
   }
   if (const std::string other = other_numbers(mission.shuffled, patches); !other.empty())
     return bad_input(other, where);

@@ -56,6 +56,7 @@ Expected<Number> number_of(std::string_view cell, std::size_t column, std::size_
 class Collector {
  public:
   Expected<void> add(int cycle, int robot, const Pose& pose, std::size_t line) {
+    // The first row decides whether the file has the starts (cycle 0).
     if (rows_ == 0 && (cycle == 0 || cycle == 1)) cycle_ = cycle;
     const bool next_instant = robot == 0 && rows_ > 0 && cycle == cycle_ + 1;
     if (next_instant) {

@@ -19,6 +19,7 @@ Interval wilson_interval(std::int64_t hits, std::int64_t trials) {
 }
 
 double geometric_chi_square(std::span<const double> waits) {
+  // P(wait = n) = 2^-n for n = 1 to 3; the last cell has all longer waits.
   constexpr std::array<double, 4> kShares = {0.5, 0.25, 0.125, 0.125};
   std::array<double, 4> counts{};
   for (const double wait : waits) {

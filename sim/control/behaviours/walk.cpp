@@ -14,12 +14,14 @@ double wrapped_cauchy_angle(double u, double rho) {
   return 2 * atan2((1 - rho) * sin(half_turn), (1 + rho) * cos(half_turn));
 }
 
+/// The quantile function, rounded up: the geometric distribution with mean 1 / (1 - e^(-1 / mean)).
 int exponential_step(double u, double mean) {
   const double length = std::ceil(-mean * log(1 - u));
   return static_cast<int>(std::clamp(length, 1.0, double{kLongestStep}));
 }
 
-/// The quantile function for lengths from 1 on: l = (1 - u)^(-1 / (mu - 1)).
+/// The quantile function for lengths from 1 on: l = (1 - u)^(-1 / (mu - 1)). For mu near 1 it may
+/// be infinite, so it is limited before it becomes an integer.
 int power_law_step(double u, double mu) {
   const double length = std::floor(exp(-log(1 - u) / (mu - 1)));
   return static_cast<int>(std::clamp(length, 1.0, double{kLongestStep}));

@@ -20,7 +20,7 @@ struct FlavourLimits {
 template <class Value, std::size_t Count = 2>
 using FlavourChoices = std::array<std::pair<std::string_view, Value>, Count>;
 
-/// Files have gray levels from 0 to 1, flavours have thousandths.
+/// Files have gray levels from 0 to 255, flavours have thousandths of them, as `gray_level` gives.
 inline constexpr double kGrayThousandths = 1000;
 
 inline constexpr FlavourChoices<ObstacleModel::Reading, 3> kObstacleReadings = {

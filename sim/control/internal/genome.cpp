@@ -98,6 +98,7 @@ class GenomeReader {
     const auto values = numbers<8>("gene");
     if (!values) return values.error();
     const auto& [trait, from, to, weight, is_recurrent, innovation, mutation, is_enabled] = *values;
+    // A disabled gene stays in a NEAT genome, but transmits nothing.
     genes_.push_back({.at = at,
                       .from = from,
                       .to = to,

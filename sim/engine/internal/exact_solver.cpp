@@ -215,6 +215,8 @@ class ExactSolver final : public ContactSolver {
       const std::size_t b =
           contact.b < 0 ? robots_.size() - 1 : static_cast<std::size_t>(contact.b);
       set_constraint(c, contact, b, robots_[static_cast<std::size_t>(contact.a)], robots_[b]);
+      // `find_contacts` lists pairs, obstacles and walls, each by mover: in ascending order of ids,
+      // like `before_`.
       while (old != before_.end() && old->id < c.id)
         ++old;
       if (old == before_.end() || old->id != c.id) continue;

@@ -181,6 +181,8 @@ void Reach::add_surroundings(const Swarm& swarm, std::size_t mover, Island& isla
 
 void Reach::gather(const Swarm& swarm) {
   for (std::size_t i = 0; i < parent_.size(); ++i) {
+    // The root is the smallest mover of its group (`join_pairs`), so it comes first and clears the
+    // entry. Without contacts the entry is not counted, and the next root takes it.
     const std::size_t group = root(i);
     if (group == i) {
       island_[i] = count_;

@@ -21,6 +21,7 @@ RobotClock::RobotClock(const ControlTiming& timing, const Rng& run, int robot)
 
 std::int64_t RobotClock::draw_arrival(std::int64_t now) {
   const std::int64_t sent = timing_->driver_sub_steps == 0 ? now : driver_.after(now);
+  // A command never overtakes the one before it: a late one also delays those after it.
   last_arrival_ = std::max(last_arrival_, sent + draw_delay());
   return last_arrival_;
 }
@@ -32,6 +33,7 @@ int RobotClock::draw_delay() {
     u -= choice.probability;
     if (u < 0) return choice.sub_steps;
   }
+  // The probabilities sum to 1 only within 1e-9 (`is_distribution`).
   return timing_->delays.back().sub_steps;
 }
 

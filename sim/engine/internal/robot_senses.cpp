@@ -225,6 +225,7 @@ void RobotSenses::count_votes() {
     now.white += levels[i] > sensor.white_above ? 1 : 0;
   }
   if (votes_.empty()) votes_.resize(static_cast<std::size_t>(sensor.vote_ticks));
+  // A ring over the last cycles; `remember` makes sure that each cycle votes.
   Votes& oldest = votes_[static_cast<std::size_t>(cycle_.number) % votes_.size()];
   vote_.black += now.black - oldest.black;
   vote_.white += now.white - oldest.white;
@@ -288,6 +289,7 @@ void RobotSenses::receive_packets() {
   std::vector<Neighbour>& known = readings_.neighbours;
   if (packets_.empty()) packets_.resize(static_cast<std::size_t>(radio.memory_ticks));
   int& oldest = packets_[static_cast<std::size_t>(cycle_.number) % packets_.size()];
+  // Packets are kept in the order of their cycles, so the expired ones are the first.
   known.erase(known.begin(), known.begin() + oldest);
   int heard_now = 0;
   const auto take = [&](int other) {

@@ -46,6 +46,7 @@ void read_placement(TableReader& instances, Mission& mission) {
   if (!training) return;
   static const std::vector<std::string> kRules = {"uniform", "rectangle", "anywhere", "fixed"};
   const auto given = training->choice("placement", kRules);
+  // The other keys belong to a rule that is not known.
   if (training->has("placement") && !given) return;
   // A radius without a placement means a disc.
   const std::string rule = given.value_or("uniform");

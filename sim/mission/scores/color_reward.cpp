@@ -21,6 +21,7 @@ void ColorRewardScorer::observe(const Positions& seen) {
 
 double ColorRewardScorer::score() const {
   const std::vector<std::int64_t> counts = counts_.counts();
+  // In the order of the rule: the order of the robots cannot change the last bit.
   double sum = 0;
   for (std::size_t i = 0; i < rewards_.size(); ++i)
     sum += static_cast<double>(counts[i]) * rewards_[i].reward;

@@ -29,6 +29,8 @@ void CoverageScorer::observe(const Positions& seen) {
     if (!(column >= 0 && column < tiles && row >= 0 && row < tiles)) continue;
     const std::size_t tile = static_cast<std::size_t>(row) * static_cast<std::size_t>(rule_.tiles) +
                              static_cast<std::size_t>(column);
+    // The ages since the last visit are summed in one step, so that an instant costs one operation
+    // per robot instead of one per tile. A second robot on the tile adds sum_of_ages(0) = 0.
     age_sum_ += sum_of_ages(instant_ - visited_[tile]);
     visited_[tile] = instant_;
   }

@@ -15,6 +15,7 @@ ForagingScorer::ForagingScorer(const Foraging& rule, Arena arena)
 void ForagingScorer::observe(const Positions& seen) {
   if (carries_.size() < seen.robots.size()) carries_.resize(seen.robots.size());
   for (std::size_t i = 0; i < seen.robots.size(); ++i) {
+    // `fault` refuses equal colours, so that an instant either takes or leaves an item.
     const Rgb floor = floor_at(arena_, seen.robots[i]);
     if (floor == rule_.source) carries_[i] = 1;
     if (floor == rule_.nest && carries_[i] != 0) {

@@ -75,6 +75,7 @@ double greatest_distance(std::span<const Point> points) {
 
 double folded(const std::string& over, const std::vector<double>& values) {
   if (values.empty()) return 0;
+  // Comparisons with NaN are false, so that extremes and sorted sums would depend on its place.
   if (std::ranges::any_of(values, [](double v) { return std::isnan(v); })) {
     return std::numeric_limits<double>::quiet_NaN();
   }

@@ -8,6 +8,7 @@ namespace swarmsmith {
 MostOnScorer::MostOnScorer(const MostOn& rule, const Arena& arena)
     : rule_(rule), counts_floor_(arena.floor == rule.color) {
   if (counts_floor_) patches_ = arena.patches;
+  // A picture is not a spot: each of its pixels has its own colour.
   for (const Patch& patch : arena.patches) {
     if (!std::holds_alternative<FloorImage>(patch.shape) && patch.color == rule.color) {
       spots_.push_back(patch);
