@@ -44,6 +44,7 @@ void adjust_p_values(std::vector<ComparedPair>& pairs) {
     least_p = std::min(least_p, pair.test.least_p);
   }
   const auto note = hopeless(tests, least_p);
+  // A pair that is too small on its own has a note about that already.
   for (ComparedPair& pair : pairs)
     if (note && pair.test.p_value && pair.test.least_p <= kTestLevel) pair.notes.push_back(*note);
 }
@@ -177,6 +178,7 @@ std::optional<Error> missing(const std::vector<DesignScore>& scores,
 }  // namespace
 
 std::optional<std::string> hopeless(std::size_t tests, double least_p) {
+  // Holm multiplies the smallest p by the number of tests, and no adjusted p is below that one.
   const double least = std::min(1.0, static_cast<double>(tests) * least_p);
   if (tests < 2 || least <= kTestLevel) return std::nullopt;
   return fmt::format(

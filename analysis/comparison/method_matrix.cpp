@@ -50,6 +50,8 @@ PairValues tested(const Comparison& comparison, const Groups& groups) {
     places.emplace_back(place_of(pair.first), place_of(pair.second));
     p_values.push_back(pair.test.p_value);
   }
+  // Holm's correction is over the pairs of this mission and source only; `ComparedPair::p_holm` is
+  // over all pairs of the comparison (docs/statistics.md, "Methods by missions").
   const auto adjusted = holm_adjusted(p_values);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto [a, b] = places[i];
@@ -71,6 +73,7 @@ std::vector<MethodMatrix::Cell> cells_of(const Comparison& comparison, const Gro
   for (std::size_t i = 0; i < groups.size(); ++i) {
     costs.push_back(-groups[i]->summary.mean);
     for (std::size_t j = 0; j < groups.size(); ++j)
+      // A test without a p, because all values are the same, finds no difference.
       different[i][j] = p_values[i][j] && *p_values[i][j] < kTestLevel;
   }
   const auto letters = letters_of(different);
@@ -95,6 +98,8 @@ void rank_rows(MethodMatrix& matrix) {
     double sum = 0;
     for (const auto& cell : row.cells)
       sum += cell ? cell->rank : std::numeric_limits<double>::quiet_NaN();
+    // NaN, from a mission without this method, fails this comparison: mean ranks over different
+    // missions cannot be compared.
     if (sum > 0) row.mean_rank = sum / static_cast<double>(row.cells.size());
   }
   std::ranges::stable_sort(matrix.rows, {}, [](const MethodMatrix::Row& row) {
@@ -156,6 +161,7 @@ std::vector<std::string> letters_of(const std::vector<std::vector<bool>>& differ
           split.push_back(column);
           continue;
         }
+        // Insert: a column with both items becomes two columns, each without one of them.
         for (const std::size_t left_out : {i, j}) {
           split.push_back(column);
           split.back().erase(left_out);

@@ -80,6 +80,7 @@ double tick_step(ValueRange range, std::size_t most) {
       (range.high - range.low) / static_cast<double>(std::max<std::size_t>(1, most));
   const double power = std::pow(10, std::floor(std::log10(least)));
   for (const double part : {1.0, 2.0, 5.0, 10.0})
+    // The tolerance keeps a step that equals the least one except for rounding.
     if (part * power >= least * (1 - 1e-9)) return part * power;
   return 10 * power;
 }

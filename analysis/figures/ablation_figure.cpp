@@ -72,6 +72,7 @@ Expected<std::vector<WayPoint>> read_way(StoreReader& store, const DesignRecord&
   std::vector<CandidateId> on_way;
   for (const EliteRecord& elite : *kept) {
     const auto own = std::ranges::find(*made, elite.candidate, &SampledRecord::candidate);
+    // The last iteration also lists the configurations of earlier steps as its elites.
     if (own == made->end() || own->iteration != elite.iteration) continue;
     way.push_back({.candidate = elite.candidate,
                    .step = elite.iteration - 1,

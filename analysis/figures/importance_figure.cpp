@@ -117,6 +117,7 @@ std::vector<std::size_t> groups_of(const ParameterColumn& column,
   std::vector<double> sorted = values;
   std::ranges::sort(sorted);
   for (const double value : values) {
+    // Equal values have the same place, so a fifth never splits them.
     const auto place = std::ranges::lower_bound(sorted, value) - sorted.begin();
     groups.push_back(static_cast<std::size_t>(place) * kGroupsOfNumbers / sorted.size());
   }
@@ -158,6 +159,8 @@ std::map<CandidateId, double> candidate_effects(const std::vector<ScoredPair>& s
   std::vector<double> effects(candidates.size());
   std::vector<double> levels(pairs.size());
   std::vector<double> next(candidates.size());
+  // Alternates between the least squares for pairs and those for candidates, each with the other
+  // terms fixed. A constant can move between the two terms; eta squared does not depend on it.
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     std::ranges::fill(levels, 0);
     for (const Run& run : runs)

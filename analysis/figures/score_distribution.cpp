@@ -195,6 +195,7 @@ Legend legend_of(const ScoreDistribution& plot) {
 }  // namespace
 
 std::size_t ScoreBins::bin_of(double value) const {
+  // A score on an edge belongs to the bin above it, even if the division rounds down.
   const double place = std::floor((value - low) / width + 1e-9);
   return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
 }
@@ -204,6 +205,7 @@ ScoreBins score_bins(const std::vector<double>& values) {
   const bool whole = std::ranges::all_of(values, [](double v) { return v == std::floor(v); });
   if (whole && most - least < static_cast<double>(kMostSingleBins))
     return {least, 1, static_cast<std::size_t>(most - least) + 1, true};
+  // Sturges 1926: a number of bins that grows with the logarithm of n.
   const double sturges = std::ceil(std::log2(static_cast<double>(values.size()))) + 1;
   ScoreBins bins;
   bins.width = tick_step(range_over(values), static_cast<std::size_t>(std::max(5.0, sturges)));

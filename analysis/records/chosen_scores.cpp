@@ -29,6 +29,8 @@ void keep(std::vector<DesignScore>& scores, const std::string& purpose) {
   }
   std::erase_if(scores, [&](const DesignScore& score) {
     if (!purpose.empty()) return score.purpose != purpose;
+    // Tests and later evaluations are not mixed in one mission and source, because an occasional
+    // `evaluate best` must not change the figures of a campaign (docs/figures.md, "box").
     return !is_of_campaign(score) && tested.contains({score.mission, score.source});
   });
 }
@@ -94,6 +96,7 @@ std::optional<std::string> seeds_differ(const std::vector<DesignScore>& scores,
   std::size_t paired = 0;
   std::size_t different = 0;
   for (const auto& [design, seeds] : designs) {
+    // Imported scores may have no seeds, which says nothing about a difference.
     if (seeds.first.empty() || seeds.second.empty()) continue;
     ++paired;
     different += seeds.first != seeds.second ? 1U : 0U;

@@ -53,6 +53,7 @@ Expected<RaceMatrix> race_matrix(StoreReader& store, DesignId design, std::int64
     if (column == columns.end()) continue;
     if (cell.rank) ++matrix.steps[column->second].ranked;
     RaceMatrix::Row& row = rows[cell.candidate];
+    // Cells come in the order of steps, so this never cuts off a cell.
     row.cells.resize(column->second + 1);
     row.cells.back() = {.has_run = true, .score = cell.score, .rank = cell.rank};
   }

@@ -16,6 +16,7 @@ double vargha_delaney(std::span<const double> first, std::span<const double> sec
   double sum = 0;
   for (std::size_t i = 0; i < first.size(); ++i)
     sum += ranks.ranks[i];
+  // The authors' (R1 / m - (m + 1) / 2) / n, where R1 is the rank sum of the first sample.
   return (sum - m * (m + 1) / 2) / (m * n);
 }
 

@@ -48,6 +48,7 @@ FriedmanTest friedman_test(const std::vector<std::vector<double>>& values) {
     squared_sums += sum * sum;
     test.mean_ranks.push_back(sum / b);
   }
+  // If all values of each block are tied, this is 0 / 0. The result is NaN, as in R.
   test.statistic = 12 * between / (b * k * (k + 1) - sums.ties / (k - 1));
   if (!std::isnan(test.statistic)) {
     test.p_value = chi_square_upper_tail(test.statistic, k - 1);
@@ -68,6 +69,8 @@ std::optional<FriedmanTest::Interval> FriedmanTest::interval(std::size_t number)
 }
 
 std::optional<FriedmanTest::Interval> FriedmanTest::told_interval(std::size_t number) const {
+  // Ranks are multiples of 1/2, so their sums are exact. The width is exactly 0 if and only if each
+  // treatment has the same rank in all blocks. Then any difference of ranks would seem significant.
   if (!finds_a_difference() || !half_width || *half_width == 0) return std::nullopt;
   return interval(number);
 }

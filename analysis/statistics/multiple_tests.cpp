@@ -14,6 +14,8 @@ std::vector<std::optional<double>> holm_adjusted(std::span<const std::optional<d
   std::vector<std::optional<double>> adjusted(p_values.size());
   double least = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
+    // The number of tests is that of the p-values that exist, as in R's `p.adjust` with NA. The
+    // maximum keeps the order of the p-values.
     least = std::max(least, static_cast<double>(order.size() - i) * *p_values[order[i]]);
     adjusted[order[i]] = std::min(1.0, least);
   }

@@ -12,9 +12,12 @@ namespace {
 
 /// The values must be in ascending order.
 double sorted_quantile(std::span<const double> sorted, double part) {
+  // The position of type 7, counted from 0: (n - 1) p.
   const double place = part * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const double over = place - static_cast<double>(below);
+  // Between equal values the weighted sum could differ from them in the last bit. The first
+  // condition also protects the last value, which has no neighbour above it.
   if (over == 0 || sorted[below] == sorted[below + 1]) return sorted[below];
   return (1 - over) * sorted[below] + over * sorted[below + 1];
 }

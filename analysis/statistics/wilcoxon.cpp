@@ -82,12 +82,14 @@ WilcoxonTest rank_sum_test(std::span<const double> first, std::span<const double
   for (std::size_t i = 0; i < first.size(); ++i)
     test.statistic += ranks.ranks[i];
   test.statistic -= m * (m + 1) / 2;
+  // The clearest case, all values of one sample above all others, is one arrangement in each tail.
   test.least_p = std::min(1.0, 2 * one_of_all_choices(first.size(), second.size()));
   test.exact = first.size() < kExactBelow && second.size() < kExactBelow && ranks.ties == 0;
   if (test.exact) {
     const auto value = static_cast<std::size_t>(test.statistic);
     test.p_value = exact_p(rank_sum_tails(value, first.size(), second.size()), alternative);
   } else {
+    // The variance of W without ties, m n (m + n + 1) / 12, becomes smaller by ties.
     const double sd = std::sqrt(m * n / 12 * ((m + n + 1) - ranks.ties / ((m + n) * (m + n - 1))));
     test.p_value = approximate_p(test.statistic - m * n / 2, sd, alternative);
   }
@@ -100,6 +102,7 @@ WilcoxonTest signed_rank_test(std::span<const double> first, std::span<const dou
   std::vector<double> sizes;
   for (std::size_t i = 0; i < first.size(); ++i) {
     const double difference = first[i] - second[i];
+    // R drops zeros before it ranks the sizes, and takes the normal approximation if there was one.
     if (difference == 0) continue;
     differences.push_back(difference);
     sizes.push_back(std::abs(difference));
@@ -110,6 +113,7 @@ WilcoxonTest signed_rank_test(std::span<const double> first, std::span<const dou
   for (std::size_t i = 0; i < differences.size(); ++i) {
     if (differences[i] > 0) test.statistic += ranks.ranks[i];
   }
+  // In the clearest case all signs are equal: 2 of 2^n patterns. The zeros do not count in n.
   test.least_p = std::min(1.0, std::exp2(1 - n));
   test.exact = differences.size() < kExactBelow && test.zeros == 0 && ranks.ties == 0;
   if (test.exact) {

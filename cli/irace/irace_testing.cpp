@@ -61,6 +61,7 @@ bool has_other_tests(const Campaign& campaign) {
   if (!stored || stored->missions.size() != 1 || stored->only_test) return false;
   const auto store = StoreReader::open(campaign.store);
   if (!store || !(*store)->finished()) return false;
+  // If the digests are equal after this, the campaigns differ only in their tests.
   stored->missions.front().instances.test = campaign.missions.front().instances.test;
   stored->missions.front().test_count = campaign.missions.front().test_count;
   stored->test_nb_elites = campaign.test_nb_elites;

@@ -344,6 +344,8 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
 
 Expected<std::int64_t> fresh_seed(StoreReader& store, std::uint64_t campaign_seed) {
   constexpr std::int64_t kAll = 1'000'000'000;
+  // Seeds of later scores do not count as used, so every call gives the same seed
+  // (docs/command-line.md, `evaluate`).
   const auto rows =
       select(store, "SELECT DISTINCT seed FROM v_evaluations WHERE purpose <> 'score' AND seed > 0",
              {.rows = kAll, .seconds = 600});

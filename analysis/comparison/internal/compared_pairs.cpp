@@ -51,6 +51,7 @@ PairedValues pair_runs(const ScoredDesigns& first, const ScoredDesigns& second) 
       values.second.push_back(mean_of(same->second));
     }
   }
+  // Each pair uses one place of each source.
   values.alone = places - 2 * values.first.size();
   return values;
 }

@@ -28,6 +28,7 @@ std::optional<ComparedRanks> ranked(const Names& names, const std::vector<Block>
     for (const auto& [name, value] : block.values)
       values.back().push_back(value);
   }
+  // One block has no spread of ranks, so it gives no half width.
   if (values.size() < 2) return std::nullopt;
   ranks.missions.assign(missions.begin(), missions.end());
   ranks.test = friedman_test(values);
@@ -54,6 +55,8 @@ void add_method_ranks(const ScoreTable& table, Comparison& comparison) {
       methods.insert(key.method);
       Block& block = blocks[key.mission];
       block.mission = key.mission;
+      // Each design has the same weight, however many runs it has; also with --per run
+      // (docs/statistics.md, "Friedman's blocks").
       block.values[key.method] = mean_of(values_of(designs, ScoreUnit::Design));
     }
     if (methods.size() < 2) continue;

@@ -32,6 +32,7 @@ std::vector<StairPoint> median_of(const std::vector<std::vector<StairPoint>>& li
   std::vector<StairPoint> result;
   if (count == 0) return result;
   for (const double x : places) {
+    // Elsewhere some lines have no value, and the median would jump because of that.
     if (x < begin || x > end) continue;
     std::vector<double> values;
     for (const auto& line : lines) {
