@@ -345,7 +345,10 @@ Shift best_shift(Followed& way, Followed& turn, bool is_limited) {
   for (const double step : {kStep_s, kFineStep_s, kFineStep_s}) {
     const auto at = [&](double by_s) { return settled(best.shift_s + by_s); };
     best.surprise = at(0);
-    const Parabola curve = parabola(at(-step), best.surprise, at(step), step);
+    // Each call begins where the last one settled, so their order is part of the result.
+    const double after = at(step);
+    const double before = at(-step);
+    const Parabola curve = parabola(before, best.surprise, after, step);
     // Within the time between frames the curve may be flat, although it bends over a whole frame.
     if (curve.curvature > 0) best.curvature = curve.curvature;
     if (step == kFineStep_s) best.shift_s += curve.off;
