@@ -84,6 +84,8 @@ struct ClientSocket::Impl {
       trouble = to_string(numbers.error());
       return;
     }
+    // A name may have several addresses, and this host may not reach all of them: each attempt
+    // takes the next one (docs/security.md, "The coordinator's file").
     address = (*numbers)[connections++ % choices];
     if (const auto user =
             asks_for_user() ? user_who_listens(address.host, address.port) : std::nullopt;

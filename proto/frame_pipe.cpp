@@ -63,6 +63,7 @@ PipeRead read_whole(int descriptor, std::size_t most, std::string& frame,
   std::uint32_t size = 0;
   for (std::size_t i = 0; i < kLengthBytes; ++i)
     size |= static_cast<std::uint32_t>(static_cast<unsigned char>(head[i])) << (8 * i);
+  // The length is checked before memory is taken for it: the other process may be broken.
   if (size > most) return PipeRead::Ended;
   frame.resize(size);
   return read_all(descriptor, frame.data(), frame.size(), deadline);

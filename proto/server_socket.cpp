@@ -205,6 +205,7 @@ struct ServerSocket::Impl {
   SendStatus room_for(Peer& peer, std::size_t size) {
     if (peer.unsent() + size > kLittle) look_at(peer);
     const bool is_long = size > kLongFrame;
+    // `most_unsent` is in addition to one long frame.
     if (is_long && peer.long_frame > 0) return SendStatus::Later;
     if (!is_long && peer.unsent() + size > options.most_unsent + peer.long_frame) {
       drop(peer);
@@ -216,6 +217,7 @@ struct ServerSocket::Impl {
              (unsent_to_all + size <= options.most_unsent_to_all &&
               *peer.unsent_to_host + size <= options.most_unsent_to_host);
     };
+    // A peer that receives at once is served even while others exhaust the common limits.
     if (fits() || (!is_long && peer.unsent() + size <= kLittle)) return SendStatus::Sent;
     look_at_all();
     if (fits()) return SendStatus::Sent;

@@ -62,6 +62,7 @@ Expected<std::string_view> payload_of(std::string_view frame, std::size_t most) 
 /// since parsing makes an object of some hundred bytes from each part of two bytes.
 bool has_too_many_parts(std::string_view payload) {
   using google::protobuf::internal::WireFormatLite;
+  // The items of a message, and its other fields, which are far fewer than 64.
   constexpr int kMost = kMaxItemsPerMessage + 64;
   google::protobuf::io::CodedInputStream stream(
       reinterpret_cast<const std::uint8_t*>(payload.data()), static_cast<int>(payload.size()));
@@ -73,6 +74,7 @@ bool has_too_many_parts(std::string_view payload) {
       if (!WireFormatLite::SkipField(&stream, tag)) return false;
       continue;
     }
+    // Parsing refuses such a message, so it needs no count.
     if (!stream.ReadVarint32(&size) || size > payload.size()) return false;
     const int end = stream.CurrentPosition() + static_cast<int>(size);
     const auto limit = stream.PushLimit(static_cast<int>(size));

@@ -31,6 +31,7 @@ class Evaluators {
 
   Expected<Evaluator> operator()(const std::string& bytes) {
     if (scenarios_.empty() || bytes != bytes_) {
+      // Ends the programs of the old scenario, whose results would be dropped (Pool::finish).
       if (interrupt_ != nullptr) interrupt_->trigger();
       scenarios_.clear();
       Expected<PoolScenario> scenarios = scenarios_from_bytes(bytes);

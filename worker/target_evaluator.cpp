@@ -109,6 +109,8 @@ class Programs {
       const std::int64_t number = item.instance < 0 ? -item.instance : item.instance;
       const std::vector<std::string>& list = test ? texts.test : texts.training;
       if (number >= 1 && static_cast<std::size_t>(number) <= list.size()) {
+        // irace's ids of instances; a `t` marks those of the test (docs/targets.md, "How the
+        // target-runner is called").
         return NamedInstance{std::to_string(number) + (test ? "t" : ""),
                              list[static_cast<std::size_t>(number - 1)]};
       }

@@ -50,6 +50,7 @@ void reap(pid_t child) {
 /// Ctrl-C would reach the program twice.
 void take_foreground() {
   setpgid(0, 0);
+  // tcsetpgrp stops a process of a background group with this signal (tcsetpgrp(3)).
   signal(SIGTTOU, SIG_IGN);
   tcsetpgrp(STDIN_FILENO, getpgrp());
   signal(SIGTTOU, SIG_DFL);

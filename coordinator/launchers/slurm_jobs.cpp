@@ -140,6 +140,8 @@ void SlurmJobs::count(const std::vector<QueuedJob>& jobs, TimePoint now) {
   // Slurm forgets ended jobs after some minutes.
   for (const auto& [id, state] : states_)
     replaceable += !states.contains(id) && is_live(phase_of(state)) ? 1 : 0;
+  // A person who cancels jobs wants fewer workers (docs/cluster.md, "Slurm"). Jobs submitted by
+  // hand count too, so cancelling one of them need not change the number.
   if (cancelled > 0) {
     wanted_ = std::min(wanted_, running_ + pending_ + leaving_ + replaceable);
   }

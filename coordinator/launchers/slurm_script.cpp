@@ -33,8 +33,12 @@ std::string text_of(const SlurmScript& script) {
   text += directive({"--job-name=" + script.job_name});
   text += directive({"--array=0-" + std::to_string(options.jobs - 1)});
   text += directive({"--cpus-per-task=" + std::to_string(options.cpus_per_task)});
+  // Slurm restarts the job itself after its node has died (docs/cluster.md, "Slurm").
   text += directive({"--requeue"});
+  // A minute before the time limit, to the batch shell, which `exec` replaces with the worker: it
+  // drains.
   text += directive({"--signal=B:TERM@60"});
+  // The log of a job that is requeued keeps what it has.
   text += directive({"--open-mode=append"});
   text += directive({"--output=" + without_patterns(script.folder.string()) + "/%A_%a.log"});
   if (!options.time.empty()) text += directive({"--time=" + options.time});

@@ -40,6 +40,8 @@ std::vector<std::string> words_to(const SshWorkersOptions& options, const SshHos
   // ssh uses the first of several values, so the user's options have priority.
   std::vector<std::string> words{options.ssh};
   std::ranges::copy(options.options, std::back_inserter(words));
+  // Without a terminal (see the class), without a question for a password. ssh gives up after 3
+  // times 5 s of silence (docs/cluster.md, "A handful of hosts: ssh").
   for (const char* word : {"-T", "-a", "-x", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "-o",
                            "ServerAliveInterval=5", "-o", "ServerAliveCountMax=3"}) {
     words.emplace_back(word);
@@ -218,6 +220,8 @@ void SshWorkers::on_ended(Worker& worker, int status, TimePoint now) {
     worker.refused = true;
     return;
   }
+  // An sshd may be refusing connections because too many arrive at once (docs/cluster.md, "A
+  // handful of hosts: ssh").
   if (!worker.begun) most_logins_ = kFewLogins;
   worker.trouble = reason(status, worker.said, ships);
   worker.refused = code == kBuildRefused;

@@ -143,6 +143,8 @@ class ProcessReferee final : public Referee {
     std::string frame = frame_of(tasks, {}, arena);
     Try one;
     if (!write_frame(child_.input(), frame)) return ended(false);
+    // `began` comes after the process has parsed the scenario, so the time limit of the evaluation
+    // counts from there.
     const SteadyTime begun = std::chrono::steady_clock::now();
     if (read_frame_until(child_.output(), kMaxFrameBytes, frame, begun + kReadyWithin) !=
         PipeRead::Frame) {

@@ -103,6 +103,7 @@ std::string text_of(const AllowedClient& client) {
 std::vector<ListedClient> clients_at(const AllowList& list, std::chrono::sys_seconds now) {
   std::vector<ListedClient> clients;
   for (const AllowedClient& client : list) {
+    // `expires` is the last valid day, in UTC (docs/security.md, "The list: clients.toml").
     const bool expired =
         client.expires && now >= std::chrono::sys_days(*client.expires) + std::chrono::days(1);
     clients.push_back({.name = client.name,

@@ -96,11 +96,14 @@ Expected<CoordinatorFile> read_coordinator_file(const std::filesystem::path& fil
 Expected<void> write_coordinator_file(const std::filesystem::path& file,
                                       const CoordinatorFile& coordinator) {
   const auto address = address_of(coordinator.endpoint);
+  // Only this user and root may connect on loopback without keys, so other users need no address
+  // (docs/security.md, "A host with other users").
   const bool is_own = coordinator.public_key.empty() && address && is_loopback(address->host);
   return replace_file(file, text_of(coordinator), is_own ? kOwnMode : kOpenMode);
 }
 
 void remove_coordinator_file(const std::filesystem::path& file, const CoordinatorFile& ours) {
+  // A later coordinator of the same store may have replaced the file.
   const auto there = read_coordinator_file(file);
   if (there && there->pid == ours.pid && there->host == ours.host &&
       there->started == ours.started) {

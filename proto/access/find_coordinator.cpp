@@ -23,6 +23,8 @@ Expected<FoundCoordinator> with_key(const CoordinatorSearch& search, const std::
                                  " needs a key; copy the one that `swarmsmith keygen` made, or "
                                  "name another file with --key";
     }
+    // A worker waits for a coordinator's file that is not there yet. But only a person can provide
+    // a key, so its absence must end the worker.
     error.kind = ErrorKind::BadInput;
     return Unexpected(std::move(error));
   }

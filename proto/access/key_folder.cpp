@@ -96,6 +96,8 @@ Expected<std::vector<std::filesystem::path>> make_key_folder(const KeyFolder& fo
     list += "\n" + text_of(entry_of(key));
   }
   files.emplace_back(folder.clients(), list);
+  // All are checked before the first is written, so that an existing file leaves the folder
+  // unchanged.
   for (const auto& [file, text] : files) {
     if (std::error_code ignored; !std::filesystem::exists(file, ignored)) continue;
     return unexpected(ErrorKind::Conflict,
@@ -138,6 +140,7 @@ Expected<std::filesystem::path> add_client(const KeyFolder& folder, const NewCli
   const ClientKeyFile key = new_key(client.name, client.role, server->public_key);
   AllowedClient entry = entry_of(key);
   entry.expires = client.expires;
+  // The key file first: a key that is not in the list admits no client.
   const std::filesystem::path file = folder.client_key(client.name);
   if (auto written = write_new_file(file, text_of(key)); !written) {
     return Unexpected(written.error());

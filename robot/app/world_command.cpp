@@ -239,6 +239,7 @@ std::optional<TimePoint> start_of(const StateMessage& message) {
   if (!state || (state->phase != Phase::Armed && state->phase != Phase::Running)) return {};
   const double now_unix_s =
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  // Orders name the start by the wall clock; the world runs by the steady clock.
   return SystemClock().now() + duration_of(state->start_unix_s - now_unix_s);
 }
 

@@ -109,6 +109,7 @@ bool LogWriter::write_out() {
     if (written > 0) {
       bytes_.erase(0, static_cast<std::size_t>(written));
     } else if (errno != EINTR) {
+      // The rest stays in `bytes_`; the next round tries to write it again.
       trouble = cannot_write(files_.rows.string()).message;
       break;
     }

@@ -95,6 +95,7 @@ TrackLog track_log_of(const StartedRun& run, const std::optional<CameraClock>& c
   Section head = head_of(run);
   const std::string doubt = doubt_of(run, clock);
   if (doubt.empty()) {
+    // `clock_s` and the run's start are CLOCK_MONOTONIC of this host; `time_s` is the video's time.
     const double start_s = run.at_clock_s - clock->first_clock_s + clock->first_time_s;
     head.lines.push_back({"start", quoted_text(fmt::format("{:.6f} s", start_s))});
   } else {

@@ -80,6 +80,7 @@ bool from_ros(const std_msgs::String& theirs, Ours& ours) {
   return true;
 }
 
+/// A differential drive: forward speed (l + r) / 2, turning speed (r - l) / distance of the treads.
 inline void to_ros(const WheelsMessage& ours, geometry_msgs::Twist& theirs) {
   theirs.linear.x = (ours.left_mps + ours.right_mps) / 2;
   theirs.angular.z = (ours.right_mps - ours.left_mps) / kTreadDistance_m;
