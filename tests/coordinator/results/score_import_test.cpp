@@ -1,8 +1,15 @@
 #include "coordinator/results/score_import.h"
 
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "storage/answer.h"
+#include "storage/store.h"
+#include "storage/store_at_rest.h"
 #include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
@@ -141,6 +148,17 @@ TEST(ScoreImport, NamesEveryBadRowByItsLine) {
   EXPECT_THAT(complaints("design,score\n1,1\n", without_source),
               ElementsAre(HasSubstr("does not say who made the score")));
   EXPECT_THAT(complaints("design\n1\n"), ElementsAre("r.csv: there is no column score (or cost)"));
+}
+
+TEST(ScoreImport, NamesTheLineOfASourceThatIsTooLong) {
+  const std::string longest(kLongestName, 'x');
+  EXPECT_EQ(value_of(import("design,source,score\n1," + longest + ",1\n")).added, 1);
+  EXPECT_THAT(complaints("design,source,score\n1," + longest + "x,1\n"),
+              ElementsAre("r.csv:2: the source has 1001 bytes; the limit is 1000"));
+  ScoreImport known = known_store();
+  known.source = longest + "x";
+  EXPECT_THAT(complaints("design,score\n1,1\n", known),
+              ElementsAre("r.csv:2: the source has 1001 bytes; the limit is 1000"));
 }
 
 TEST(ScoreImport, KnowsAScoreAgainAndRefusesAnother) {
