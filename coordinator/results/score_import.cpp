@@ -269,6 +269,8 @@ Expected<void> Importer::put(const CsvRow& row, Score read) {
     result_.addition.removed.push_back(key);
     ++result_.replaced;
   } else {
+    if (const auto room = ledger_.check_room({read.place}); !room)
+      return bad_input(room.error().message + ": leave out some of its rows");
     key = ledger_.add(read.place, {.score = read.score}, result_.addition.rows);
     ++result_.added;
   }

@@ -161,6 +161,25 @@ TEST(ScoreImport, NamesTheLineOfASourceThatIsTooLong) {
               ElementsAre("r.csv:2: the source has 1001 bytes; the limit is 1000"));
 }
 
+TEST(ScoreImport, RefusesMorePairsThanADesignCanHave) {
+  ScoreLedger ledger;
+  std::vector<Row> ignored;
+  for (std::int64_t seed = 1; seed < kPairsPerCandidate; ++seed) {
+    ledger.add({.candidate = {2}, .source = "real", .instance = 1, .seed = seed}, {.score = 3},
+               ignored);
+  }
+  EXPECT_THAT(complaints("design,seed,score\n1,99999,3\n1,100000,3\n", known_store(), ledger),
+              ElementsAre("r.csv:3: d1 would have scores on 100000 pairs (of source, instance and "
+                          "seed); a design can have at most 99999: leave out some of its rows"));
+  // Other candidates share the pairs of their design, and other designs have pairs of their own.
+  const auto scores = value_of(
+      import("candidate,seed,score\nc5,99999,1\nc1000002,100000,1\n", known_store(), ledger));
+  std::vector<std::string> ids;
+  for (const EvaluationRow& row : evaluations(scores))
+    ids.push_back(to_string(row.key));
+  EXPECT_THAT(ids, ElementsAre("e599999s", "e100000200001s"));
+}
+
 TEST(ScoreImport, KnowsAScoreAgainAndRefusesAnother) {
   ScoreLedger ledger;
   std::vector<Row> ignored;
