@@ -52,9 +52,9 @@ Expected<ScoreLedger> ScoreLedger::read(StoreReader& store) {
     if (row[6].type == StoreReader::Cell::Type::Null) return;  // rejected: no score
     ledger.scores_.emplace(Place{candidate, source, seed, known.instance}, known);
   };
-  constexpr std::int64_t kAll = 1'000'000'000;
+  constexpr std::int64_t kAll = std::numeric_limits<std::int64_t>::max();
   const auto end = store.query(
-      select_scores(), {.rows = kAll, .seconds = 600}, [](const auto&) {}, take);
+      select_scores(), {.rows = kAll, .seconds = 600, .bytes = kAll}, [](const auto&) {}, take);
   if (!end) return Unexpected(end.error());
   if (end->truncated) {
     return unexpected(ErrorKind::Unavailable, "the store's scores took longer than 600 s to read");

@@ -180,6 +180,41 @@ TEST(ScoreImport, RefusesMorePairsThanADesignCanHave) {
   EXPECT_THAT(ids, ElementsAre("e599999s", "e100000200001s"));
 }
 
+TEST(ScoreLedger, ReadsMoreScoresThanAUsersQueryWouldGet) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "s.db";
+  // Long names make the answer longer than 128 MiB with fewer rows.
+  const std::string source(kLongestName, 'x');
+  const std::vector<CandidateId> candidates{{1}, {2}};
+  constexpr std::int64_t kPairs = 60'000;
+  Addition addition{
+      .campaign = CampaignRow{.name = "c", .digest = "x", .deciding = "{}", .file = "", .seed = 0},
+      .designs = {{.row = {.id = {1}, .mission = "m", .method = "by hand", .repetition = 1},
+                   .name = ""}},
+      .removed = {},
+      .rows = {},
+      .profiles = {}};
+  for (const CandidateId candidate : candidates)
+    addition.rows.emplace_back(
+        CandidateRow{.id = candidate, .parameters = "{}", .machine = "x", .modules = "{}"});
+  ScoreLedger made;
+  for (std::int64_t seed = 1; seed <= kPairs; ++seed) {
+    for (const CandidateId candidate : candidates) {
+      const EvaluationKey key =
+          made.add({.candidate = candidate, .source = source, .instance = 1, .seed = seed},
+                   {.score = 1}, addition.rows);
+      addition.rows.emplace_back(
+          EvaluationRow{.key = key, .measured = {.score = 1}, .source = source});
+    }
+  }
+  ASSERT_TRUE(value_of(StoreAtRest::open(file, StoreAtRest::IfMissing::Make))->add(addition));
+  const auto reader = value_of(StoreReader::open(file));
+  const auto read = ScoreLedger::read(*reader);
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_NE(read->find({.candidate = {2}, .source = source, .instance = 1, .seed = kPairs}),
+            nullptr);
+}
+
 TEST(ScoreImport, KnowsAScoreAgainAndRefusesAnother) {
   ScoreLedger ledger;
   std::vector<Row> ignored;
