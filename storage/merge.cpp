@@ -41,15 +41,19 @@ constexpr std::array kCopied{
     "real_log",   "real_log_cycle", "real_check"};
 
 /// The SQL expression for an event's text in the new store: the ids in {"evaluation":"c80 on pair
-/// 6","worker":1} and {"design":"d3"} are shifted, so that they name the same things as before.
+/// 6","worker":1}, {"evaluation":"e8000006s"} and {"design":"d3"} are shifted, so that they name
+/// the same things as before.
 std::string moved_event(const Move& move) {
   return fmt::format(
       "iif(json_valid(text), json_replace(text, "
       "'$.design', 'd' || (CAST(substr(text ->> '$.design', 2) AS INTEGER) + {}), "
-      "'$.evaluation', 'c' || (CAST(substr(text ->> '$.evaluation', 2) AS INTEGER) + {}) || "
-      "substr(text ->> '$.evaluation', instr(text ->> '$.evaluation', ' ')), "
+      "'$.evaluation', substr(text ->> '$.evaluation', 1, 1) || "
+      "(CAST(substr(text ->> '$.evaluation', 2) AS INTEGER) + "
+      "iif(text ->> '$.evaluation' LIKE 'e%', {}, {})) || "
+      "ltrim(substr(text ->> '$.evaluation', 2), '0123456789'), "
       "'$.worker', iif(text ->> '$.worker' = 0, 0, (text ->> '$.worker') + {})), text)",
-      move.designs, move.designs * kCandidatesPerDesign, move.workers);
+      move.designs, move.designs * kCandidatesPerDesign * kPairsPerCandidate,
+      move.designs * kCandidatesPerDesign, move.workers);
 }
 
 /// The SQL expression for a column in the new store, from the source's row.

@@ -107,7 +107,7 @@ constexpr std::int64_t number_of(CandidateId id) {
   return (id.value - 1) % kCandidatesPerDesign + 1;
 }
 
-/// Largest number of characters of a name in a store (campaign, mission, method, design, source).
+/// Largest number of bytes of a name in a store (campaign, mission, method, design, source).
 inline constexpr std::int64_t kLongestName = 1000;
 
 struct CampaignRow {

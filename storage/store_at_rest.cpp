@@ -14,6 +14,7 @@
 #include "storage/internal/row_sums.h"
 #include "storage/internal/row_writer.h"
 #include "storage/internal/schema.h"
+#include "storage/internal/schema_check.h"
 #include "storage/stored_enums.h"
 
 namespace swarmsmith {
@@ -91,6 +92,9 @@ Expected<void> SqliteAtRest::in_one_go(const std::function<Expected<void>()>& ch
     sqlite::Transaction transaction(writer_.connection);
     if (is_new_) write_empty_store(writer_.connection);
     if (auto changed = change(); !changed) return changed;
+    // No reader and no writer would open the store again, not even to repair it.
+    if (const std::string text = too_long_text(writer_.connection); !text.empty())
+      return bad_input(text + "; nothing was added: make it shorter", path_.string());
     if (auto sums = RowSums::stored(writer_.connection)) {
       for (const RowSums::Table table : RowSums::kOfRealRuns)
         sums->count(writer_.connection, table);
@@ -200,11 +204,6 @@ Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
   know_flavours(writer_.connection);
   Statement insert(writer_.connection, kDesign);
   for (const auto& [row, name] : addition.designs) {
-    for (const std::string& each : {row.mission, row.method, name}) {
-      if (std::ssize(each) <= kLongestName) continue;
-      return bad_input(fmt::format("a name of design {} has {} characters; the limit is {}",
-                                   to_string(row.id), each.size(), kLongestName));
-    }
     if (row.id.value != ++designs) {
       return unexpected(
           ErrorKind::Conflict,

@@ -113,6 +113,18 @@ std::int64_t runs_of(const EvaluationPlan& plan) {
   return static_cast<std::int64_t>(runs);
 }
 
+ScorePlace place_of(const EvaluationJob& job, std::int64_t seed) {
+  return {.candidate = job.candidate, .source = job.profile.name, .instance = {}, .seed = seed};
+}
+
+std::vector<ScorePlace> places_of(const EvaluationPlan& plan) {
+  std::vector<ScorePlace> places;
+  for (const EvaluationJob& job : plan.jobs)
+    for (const std::int64_t seed : job.seeds)
+      places.push_back(place_of(job, seed));
+  return places;
+}
+
 /// Runs the jobs one after the other, and prints each run.
 class Evaluation {
  public:
@@ -129,6 +141,11 @@ class Evaluation {
       auto keeper = ScoreKeeper::open(plan_.store);
       if (!keeper) return fail(output_, ExitCode::Store, keeper.error());
       keeper_ = std::move(*keeper);
+      if (const auto room = keeper_->check_room(places_of(plan_)); !room) {
+        return fail(output_, ExitCode::Usage,
+                    room.error().message +
+                        ": give fewer seeds, or add --no-store to print the scores only");
+      }
     }
     const EvaluationJob& first = plan_.jobs.front();
     auto recording = Recording::start(recording_, first.mission, first.controller, output_);
@@ -190,13 +207,7 @@ class Evaluation {
       by_job_.emplace_back(&job, std::vector<double>());
     by_job_.back().second.push_back(result.score);
     Told told{.job = &job, .seed = job.seeds[i], .score = result.score, .kept = {}};
-    if (keeper_) {
-      const ScorePlace place{.candidate = job.candidate,
-                             .source = job.profile.name,
-                             .instance = {},
-                             .seed = told.seed};
-      told.kept = keeper_->keep(place, result);
-    }
+    if (keeper_) told.kept = keeper_->keep(place_of(job, told.seed), result);
     if (of_ > 1) counter_.tell(static_cast<std::int64_t>(scores_.size()), of_);
     if (output_.json) {
       output_.out << as_json(told);

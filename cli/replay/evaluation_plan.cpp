@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -343,12 +344,12 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
 }
 
 Expected<std::int64_t> fresh_seed(StoreReader& store, std::uint64_t campaign_seed) {
-  constexpr std::int64_t kAll = 1'000'000'000;
+  constexpr std::int64_t kAll = std::numeric_limits<std::int64_t>::max();
   // Seeds of later scores do not count as used, so every call gives the same seed
   // (docs/command-line.md, `evaluate`).
   const auto rows =
       select(store, "SELECT DISTINCT seed FROM v_evaluations WHERE purpose <> 'score' AND seed > 0",
-             {.rows = kAll, .seconds = 600});
+             {.rows = kAll, .seconds = 600, .bytes = kAll});
   if (!rows) return Unexpected(rows.error());
   std::set<std::string> used;
   for (const auto& cells : rows->cells)

@@ -20,6 +20,11 @@ class ScoreKeeper {
   /// a campaign is writing it.
   static Expected<ScoreKeeper> open(const std::string& store);
 
+  /// BadInput if a design would have too many scores. To be called before anything is computed.
+  Expected<void> check_room(const std::vector<ScorePlace>& places) const {
+    return ledger_.check_room(places);
+  }
+
   /// Stores the profile of the scores that follow. Without it, the store could not know the
   /// profile.
   void keep_profile(const Profile& profile);
@@ -32,7 +37,7 @@ class ScoreKeeper {
   };
 
   /// Collects a score. If the store already has a score for the same evaluation, the bits must be
-  /// equal; a different score is stored as a conflict beside it.
+  /// equal; a different score is stored as a conflict beside it. There must be room for it.
   Kept keep(const ScorePlace& place, Measured result);
 
   /// Writes the scores collected since the last commit, all or nothing.

@@ -173,7 +173,7 @@ void Rows::add_eliminations(const std::vector<LogStep>& steps, std::size_t at,
       is_last ? races_.elites_of(steps[at].iteration) : steps[at + 1].alive;
   for (const std::int64_t configuration : steps[at].alive) {
     if (std::ranges::find(kept, configuration) != kept.end()) continue;
-    const bool rejected = !races_.score(configuration, steps[at].pair);
+    const bool rejected = !races_.score(configuration, steps[at].pair, steps[at].iteration);
     rows_.emplace_back(EliminationRow{.candidate = id_of(configuration),
                                       .iteration = steps[at].iteration,
                                       .step = number,

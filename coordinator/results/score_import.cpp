@@ -215,6 +215,10 @@ Expected<Score> Importer::read_values(const CsvRow& row, const std::string& miss
     return bad_input(
         "the row does not say who made the score: add a column source, or --source real");
   }
+  if (std::ssize(read.place.source) > kLongestName) {
+    return bad_input(fmt::format("the source has {} bytes; the limit is {}",
+                                 read.place.source.size(), kLongestName));
+  }
   const auto seed = read_integer(row, "seed", 1);
   if (!seed) return Unexpected(seed.error());
   const auto instance = read_integer(row, "instance", 1);
@@ -265,6 +269,8 @@ Expected<void> Importer::put(const CsvRow& row, Score read) {
     result_.addition.removed.push_back(key);
     ++result_.replaced;
   } else {
+    if (const auto room = ledger_.check_room({read.place}); !room)
+      return bad_input(room.error().message + ": leave out some of its rows");
     key = ledger_.add(read.place, {.score = read.score}, result_.addition.rows);
     ++result_.added;
   }

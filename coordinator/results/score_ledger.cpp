@@ -1,7 +1,12 @@
 #include "coordinator/results/score_ledger.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "base/assert.h"
 #include "base/text/csv.h"
@@ -47,9 +52,9 @@ Expected<ScoreLedger> ScoreLedger::read(StoreReader& store) {
     if (row[6].type == StoreReader::Cell::Type::Null) return;  // rejected: no score
     ledger.scores_.emplace(Place{candidate, source, seed, known.instance}, known);
   };
-  constexpr std::int64_t kAll = 1'000'000'000;
+  constexpr std::int64_t kAll = std::numeric_limits<std::int64_t>::max();
   const auto end = store.query(
-      select_scores(), {.rows = kAll, .seconds = 600}, [](const auto&) {}, take);
+      select_scores(), {.rows = kAll, .seconds = 600, .bytes = kAll}, [](const auto&) {}, take);
   if (!end) return Unexpected(end.error());
   if (end->truncated) {
     return unexpected(ErrorKind::Unavailable, "the store's scores took longer than 600 s to read");
@@ -74,13 +79,39 @@ const LedgerScore* ScoreLedger::find(const ScorePlace& place) const {
   return found == scores_.end() ? nullptr : &found->second;
 }
 
+ScoreLedger::Pair ScoreLedger::pair_of(const ScorePlace& place) {
+  return {design_of(place.candidate), place.source, place.seed, place.instance.value_or(1)};
+}
+
+Expected<void> ScoreLedger::check_room(const std::vector<ScorePlace>& places) const {
+  std::map<DesignId, std::set<Pair>> fresh;
+  for (const ScorePlace& place : places) {
+    Pair pair = pair_of(place);
+    if (find(place) != nullptr || pairs_.contains(pair)) continue;
+    fresh[design_of(place.candidate)].insert(std::move(pair));
+  }
+  for (const auto& [design, pairs] : fresh) {
+    const auto last = last_pair_.find(design);
+    const std::int64_t pairs_now = last == last_pair_.end() ? 0 : last->second;
+    const std::int64_t needed = pairs_now + std::ssize(pairs);
+    if (needed < kPairsPerCandidate) continue;
+    return bad_input(
+        fmt::format("{} would have scores on {} pairs (of source, instance and seed); "
+                    "a design can have at most {}",
+                    to_string(design), needed, kPairsPerCandidate - 1));
+  }
+  return {};
+}
+
 EvaluationKey ScoreLedger::add(const ScorePlace& place, const Measured& measured,
                                std::vector<Row>& rows) {
   const DesignId design = design_of(place.candidate);
   const std::int64_t instance = place.instance.value_or(1);
-  const auto [pair, is_new] = pairs_.emplace(Pair{design, place.source, place.seed, instance}, 0);
+  const auto [pair, is_new] = pairs_.emplace(pair_of(place), 0);
   if (is_new) {
     pair->second = ++last_pair_[design];
+    SWARMSMITH_ASSERT(pair->second < kPairsPerCandidate,
+                      "a pair has a number within its design; check_room comes first");
     rows.emplace_back(PairRow{.design = design,
                               .purpose = Purpose::Score,
                               .number = pair->second,

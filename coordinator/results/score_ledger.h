@@ -41,8 +41,12 @@ class ScoreLedger {
   /// an instance: the first score with this seed.
   const LedgerScore* find(const ScorePlace& place) const;
 
+  /// BadInput if a design would have more pairs with scores at these places than a store can
+  /// number.
+  Expected<void> check_room(const std::vector<ScorePlace>& places) const;
+
   /// Adds a score that is not known yet, and returns its key. A new pair is added to `rows`. The
-  /// instance is 1 if the place has none.
+  /// instance is 1 if the place has none. There must be room.
   EvaluationKey add(const ScorePlace& place, const Measured& measured, std::vector<Row>& rows);
 
   /// Replaces the score that `find` returns, which must exist, by a score measured elsewhere.
@@ -55,6 +59,7 @@ class ScoreLedger {
   using Scores = std::map<Place, LedgerScore>;
 
   Scores::const_iterator at(const ScorePlace& place) const;
+  static Pair pair_of(const ScorePlace& place);
 
   Scores scores_;
   std::map<Pair, std::int64_t> pairs_;

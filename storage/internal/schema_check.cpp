@@ -191,7 +191,7 @@ Expected<void> check_tables(const Connection& connection, const std::filesystem:
   return {};
 }
 
-Expected<void> check_lengths(const Connection& connection, const std::filesystem::path& path) {
+std::string too_long_text(const Connection& connection) {
   struct Limit {
     const char *column, *table;
     std::int64_t most;
@@ -205,6 +205,7 @@ Expected<void> check_lengths(const Connection& connection, const std::filesystem
       Limit{"mission", "design", kLongestName},
       Limit{"method", "design", kLongestName},
       Limit{"flavour", "design", kLongestName, 4},
+      Limit{"name", "design", kLongestName, 4},
       Limit{"reason", "design", kLongestReason},
       Limit{"machine", "phrase", kLongestPhrase, 4},
       Limit{"parameters", "phrase", kLongestPhrase, 4},
@@ -217,12 +218,15 @@ Expected<void> check_lengths(const Connection& connection, const std::filesystem
         connection,
         fmt::format("SELECT max(length(CAST({} AS BLOB))) FROM {}", limit.column, limit.table));
     if (longest <= limit.most) continue;
-    return unexpected(ErrorKind::Corrupt,
-                      fmt::format("a {} in the store's table {} has {} bytes; the limit is {}",
-                                  limit.column, limit.table, longest, limit.most),
-                      path.string());
+    return fmt::format("a {} in the store's table {} has {} bytes; the limit is {}", limit.column,
+                       limit.table, longest, limit.most);
   }
   return {};
+}
+
+Expected<void> check_lengths(const Connection& connection, const std::filesystem::path& path) {
+  const std::string found = too_long_text(connection);
+  return found.empty() ? Expected<void>() : unexpected(ErrorKind::Corrupt, found, path.string());
 }
 
 void copy_rows(const Connection& from, const Connection& to) {

@@ -31,8 +31,12 @@ Expected<void> check_schema(const sqlite::Connection& connection,
 Expected<void> check_tables(const sqlite::Connection& connection,
                             const std::filesystem::path& path);
 
-/// Corrupt when a name or another text that is read often is longer than this program would write
-/// it. (Names are in every table and figure.) Throws SqliteError.
+/// "a name in the store's table source has 1001 bytes; the limit is 1000" if a name or another text
+/// that is read often is too long; else empty. (Names are in every table and figure.) Texts from
+/// outside are checked in this way before the commit. Throws SqliteError.
+std::string too_long_text(const sqlite::Connection& connection);
+
+/// Corrupt when too_long_text finds a text. Throws SqliteError.
 Expected<void> check_lengths(const sqlite::Connection& connection,
                              const std::filesystem::path& path);
 

@@ -422,6 +422,32 @@ TEST_F(EvaluateFromStore, ShoutsWhenTheBitsDifferFromWhatIsStored) {
               HasSubstr("1"));
 }
 
+TEST_F(EvaluateFromStore, SimulatesNothingForWhichTheDesignHasNoPair) {
+  {
+    auto store = Store::open(store_, campaign_row(one_design_campaign()),
+                             design_rows(one_design_campaign()));
+    constexpr std::int64_t kLast = kPairsPerCandidate - 2;
+    (*store)->append(
+        {PairRow{
+             .design = {1}, .purpose = Purpose::Score, .number = kLast, .instance = 1, .seed = 2},
+         EvaluationRow{.key = {{1}, Purpose::Score, kLast},
+                       .measured = {.score = score_of("aggregation", 2)},
+                       .source = "rvr"}});
+  }
+  const Ran ran = run({"evaluate", "c1", "--store", store_, "--seeds", "2-4"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_THAT(ran.err, HasSubstr("d1 would have scores on 100000 pairs (of source, instance and "
+                                 "seed); a design can have at most 99999: give fewer seeds, or add "
+                                 "--no-store to print the scores only"));
+  const std::vector<std::string> count{
+      "query", store_, "SELECT count(*) AS n FROM v_evaluations WHERE purpose = 'score'", "--csv"};
+  EXPECT_EQ(run(count).out, "n\n1\n");
+  EXPECT_EQ(run({"evaluate", "c1", "--store", store_, "--seeds", "2-3"}).code, 0);
+  EXPECT_EQ(run({"evaluate", "c2", "--store", store_, "--seeds", "2-3"}).code, 0);
+  EXPECT_EQ(run(count).out, "n\n4\n");
+}
+
 TEST_F(EvaluateFromStore, StoresNothingThatIsNoScoreOfTheDesign) {
   const Misuse misuses[] = {
       {{"--mission", "grid_exploration"}, "the design is one for the mission aggregation"},

@@ -1,8 +1,15 @@
 #include <cmath>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/checks.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -82,6 +89,48 @@ TEST_F(AtRestTest, TakesAllOfAnAdditionOrNothing) {
   EXPECT_FALSE(store->add(second));
   EXPECT_THAT(all("SELECT count(*) FROM v_designs"), ElementsAre(Cells{"1"}));
   EXPECT_THROW(static_cast<void>(store->add(imported(2, std::nan("")))), std::invalid_argument);
+}
+
+TEST_F(AtRestTest, TakesNoTextThatItsReadersWouldRefuse) {
+  const std::string longest(kLongestName, 'x');
+  const std::vector<std::pair<std::string, std::function<void(Addition&)>>> changes{
+      {"a name in the store's table campaign", [&](Addition& a) { a.campaign->name += longest; }},
+      {"a name in the store's table source",
+       [&](Addition& a) { std::get<EvaluationRow>(a.rows.back()).source += longest; }},
+      {"a mission in the store's table design",
+       [&](Addition& a) { a.designs[0].row.mission += longest; }},
+      {"a method in the store's table design",
+       [&](Addition& a) { a.designs[0].row.method += longest; }},
+      {"a flavour in the store's table design",
+       [&](Addition& a) { a.designs[0].row.flavour += longest; }},
+      {"a name in the store's table design", [&](Addition& a) { a.designs[0].name += longest; }},
+      {"a reason in the store's table design",
+       [&](Addition& a) { std::get<DesignStateRow>(a.rows[1]).reason.resize((1 << 20) + 1, 'x'); }},
+      {"a parameters in the store's table phrase",
+       [&](Addition& a) {
+         std::get<CandidateRow>(a.rows[0]).parameters =
+             R"({"x":")" + std::string(9 << 20, 'x') + "\"}";
+       }},
+  };
+  for (const auto& [text, change] : not_empty(changes)) {
+    SCOPED_TRACE(text);
+    Addition addition = imported(1, 1);
+    change(addition);
+    auto store = value_of(StoreAtRest::open(path_, IfMissing::Make));
+    const Error refused = why_not(store->add(addition));
+    EXPECT_EQ(refused.kind, ErrorKind::BadInput);
+    EXPECT_THAT(refused.message, AllOf(HasSubstr(text), HasSubstr("nothing was added")));
+    addition = imported(1, 1);
+    addition.campaign->name = longest;
+    std::get<EvaluationRow>(addition.rows.back()).source = longest;
+    ASSERT_TRUE(store->add(addition));
+    change(addition = imported(2, 1));
+    EXPECT_EQ(why_not(store->add(addition)).kind, ErrorKind::BadInput);
+    EXPECT_THAT(all("SELECT source FROM v_design_scores"), ElementsAre(Cells{longest}));
+    store.reset();
+    EXPECT_TRUE(StoreAtRest::open(path_, IfMissing::Refuse));
+    std::filesystem::remove(path_);
+  }
 }
 
 TEST_F(AtRestTest, KeepsWhatIsThereUntilItIsRemoved) {

@@ -223,6 +223,24 @@ TEST_F(MergeTest, EventsNameTheSameThings) {
                                 {R"({"evaluation":"c4000007 on pair 6","worker":3})"}}));
 }
 
+TEST_F(MergeTest, NotesOfScoresNameTheSameScores) {
+  for (const fs::path& path : {a, b}) {
+    const auto reader = open_reader(path);
+    const auto store = Store::open(path, reader->campaign(), reader->designs()).value();
+    for (const char* id : {"e100000700007s", "e100000700008"}) {
+      store->append({event_row("info", "note",
+                               {{"evaluation", std::string(id)}, {"note", std::string("e1 c1")}})});
+    }
+    store->flush();
+  }
+  ASSERT_TRUE(merge_stores({a, b}, out, kUnwatched));
+  EXPECT_EQ(cells_of(*open_reader(out), "SELECT text FROM event WHERE kind = 'note' ORDER BY seq"),
+            (std::vector<Cells>{{R"({"evaluation":"e100000700007s","note":"e1 c1"})"},
+                                {R"({"evaluation":"e100000700008","note":"e1 c1"})"},
+                                {R"({"evaluation":"e300000700007s","note":"e1 c1"})"},
+                                {R"({"evaluation":"e300000700008","note":"e1 c1"})"}}));
+}
+
 TEST_F(MergeTest, RenumbersWhatTheRowsName) {
   ASSERT_TRUE(merge_stores({a, b}, out, kUnwatched));
   const auto reader = open_reader(out);

@@ -147,9 +147,10 @@ TEST_F(OpeningTest, FindsTheFileSystemOfAFolderOfThisHost) {
 TEST_F(OpeningTest, RefusesTextsThatAreLongerThanAnyOfOurs) {
   constexpr int kName = kLongestName;
   const std::vector<std::pair<std::string, int>> limits{
-      {"campaign.name", kName},    {"source.name", kName},         {"design.mission", kName},
-      {"design.method", kName},    {"design.flavour", kName},      {"design.reason", 1 << 20},
-      {"phrase.machine", 8 << 20}, {"phrase.parameters", 8 << 20}, {"phrase.modules", 8 << 20}};
+      {"campaign.name", kName},   {"source.name", kName},      {"design.mission", kName},
+      {"design.method", kName},   {"design.flavour", kName},   {"design.reason", 1 << 20},
+      {"design.name", kName},     {"phrase.machine", 8 << 20}, {"phrase.parameters", 8 << 20},
+      {"phrase.modules", 8 << 20}};
   fill_store(path, campaign);
   execute("INSERT OR IGNORE INTO phrase (id, machine, parameters, modules) VALUES (1, '', '', '')");
   const std::filesystem::path whole = folder / "whole.db";

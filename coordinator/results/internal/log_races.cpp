@@ -13,15 +13,21 @@ bool is_rejected(const LogRun& run) {
 LogRaces::LogRaces(const IraceLog& log) : log_(log) {
   for (const LogRun& run : log_.runs) {
     iterations_ = std::max(iterations_, run.iteration);
-    if (!is_rejected(run)) scores_.emplace(std::pair{run.configuration, run.pair}, -*run.cost);
+    if (!is_rejected(run)) {
+      scores_.emplace(std::pair{run.configuration, run.pair}, std::pair{run.iteration, -*run.cost});
+    }
   }
   for (const LogElite& elite : log_.elites)
     elites_[elite.iteration].push_back(elite.configuration);
 }
 
-std::optional<double> LogRaces::score(std::int64_t configuration, std::int64_t pair) const {
+std::optional<double> LogRaces::score(std::int64_t configuration, std::int64_t pair,
+                                      std::int64_t iteration) const {
   const auto found = scores_.find({configuration, pair});
-  return found == scores_.end() ? std::nullopt : std::optional(found->second);
+  // A later race may run a configuration on a pair that it did not reach before, as post-selection
+  // does with those that a test dropped.
+  if (found == scores_.end() || found->second.first > iteration) return std::nullopt;
+  return found->second.second;
 }
 
 LogRaces::Configurations LogRaces::elites_of(std::int64_t iteration) const {
@@ -53,7 +59,8 @@ std::vector<LogStep> LogRaces::steps_of(std::int64_t iteration) const {
     for (const std::int64_t racer : racers) {
       // An elite does not run again on pairs of earlier iterations: it has a score there, but no
       // run in this iteration. A rejected run is a run without a score.
-      if (ran.contains({racer, step.pair}) || score(racer, step.pair)) step.alive.push_back(racer);
+      if (ran.contains({racer, step.pair}) || score(racer, step.pair, iteration))
+        step.alive.push_back(racer);
     }
   }
   return steps;
@@ -66,7 +73,7 @@ std::pair<std::int64_t, double> LogRaces::best_of(const std::vector<LogStep>& st
     double sum = 0;
     bool whole = true;
     for (std::size_t i = 0; i <= at && whole; ++i) {
-      const auto value = score(configuration, steps[i].pair);
+      const auto value = score(configuration, steps[i].pair, steps[i].iteration);
       whole = value.has_value();
       sum += value.value_or(0);
     }
@@ -80,11 +87,11 @@ double LogRaces::rank_sum(const std::vector<LogStep>& steps, std::size_t at,
                           std::int64_t configuration) const {
   double sum = 0;
   for (std::size_t i = 0; i <= at; ++i) {
-    const auto own = score(configuration, steps[i].pair);
+    const auto own = score(configuration, steps[i].pair, steps[i].iteration);
     double better = 0;
     double equal = 0;
     for (const std::int64_t other : steps[at].alive) {
-      const auto value = score(other, steps[i].pair);
+      const auto value = score(other, steps[i].pair, steps[i].iteration);
       // Without a score is the worst rank, which all such configurations share.
       if (value == own) {
         ++equal;

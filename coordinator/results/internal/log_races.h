@@ -29,7 +29,9 @@ class LogRaces {
   explicit LogRaces(const IraceLog& log);
 
   std::int64_t iterations() const { return iterations_; }
-  std::optional<double> score(std::int64_t configuration, std::int64_t pair) const;
+  /// The score that the configuration has on the pair at the end of the iteration.
+  std::optional<double> score(std::int64_t configuration, std::int64_t pair,
+                              std::int64_t iteration) const;
   /// Sorted, the best first.
   Configurations elites_of(std::int64_t iteration) const;
   /// The elites of the previous iteration and the configurations that ran in this one, by id.
@@ -48,8 +50,9 @@ class LogRaces {
  private:
   const IraceLog& log_;
   std::int64_t iterations_ = 0;
-  std::map<std::pair<std::int64_t, std::int64_t>, double> scores_;  ///< by configuration and pair
-  std::map<std::int64_t, Configurations> elites_;                   ///< by iteration
+  /// By configuration and pair: iteration and score of the first run.
+  std::map<std::pair<std::int64_t, std::int64_t>, std::pair<std::int64_t, double>> scores_;
+  std::map<std::int64_t, Configurations> elites_;  ///< by iteration
 };
 
 }  // namespace swarmsmith

@@ -99,6 +99,33 @@ TEST(IraceLog, WorksOutWhoWasAliveAndWhoLeft) {
   EXPECT_EQ(rows_of<DesignStateRow>(addition).front().best, CandidateId{2});
 }
 
+TEST(IraceLog, ScoresOfALaterRaceBringNoConfigurationBackIntoAnEarlierOne) {
+  Texts texts = by_hand();
+  texts["pairs.csv"] += "race,3,1,13\nrace,4,2,14\n";
+  // The test on pair 2 drops the elite 1; the post-selection takes it again, with pair 3.
+  texts["runs.csv"] =
+      "iteration,pair,configuration,cost,time,bound\n"
+      "1,1,1,4,,\n1,1,2,3,,\n2,2,1,9,,\n2,2,2,5,,\n2,2,3,1,,\n2,3,2,5,,\n2,3,3,1,,\n"
+      "3,3,1,0,,\n3,4,1,2,,\n3,4,2,2,,\n3,4,3,1,,\n";
+  texts["elites.csv"] = "iteration,rank,configuration\n1,1,2\n1,2,1\n2,1,3\n2,2,2\n3,1,3\n";
+  const auto addition = value_of(irace_log_addition(
+      *read_irace_log(texts), {.campaign = "theirs", .flavour = {}, .designs = {}}));
+  std::vector<std::string> steps;
+  for (const RaceStepRow& step : rows_of<RaceStepRow>(addition)) {
+    steps.push_back(std::to_string(step.iteration) + "/" + std::to_string(step.pair) + ": " +
+                    std::to_string(step.alive_before) + " to " + std::to_string(step.alive_after) +
+                    ", best " + to_string(step.best));
+  }
+  EXPECT_THAT(steps,
+              ElementsAre("1/1: 2 to 2, best c2", "2/2: 3 to 2, best c3", "2/3: 2 to 2, best c3",
+                          "3/3: 3 to 3, best c1", "3/4: 3 to 1, best c1"));
+  const auto gone = rows_of<EliminationRow>(addition);
+  ASSERT_FALSE(gone.empty());
+  EXPECT_EQ(gone.front().candidate, CandidateId{1});
+  EXPECT_EQ(gone.front().iteration, 2);
+  EXPECT_EQ(gone.front().reason, "test");
+}
+
 TEST(IraceLog, RunsThatEstimateATimeCountForTheFirstRace) {
   Texts texts = by_hand();
   texts["runs.csv"] =

@@ -1,8 +1,15 @@
 #include "coordinator/results/score_import.h"
 
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "storage/answer.h"
+#include "storage/store.h"
+#include "storage/store_at_rest.h"
 #include "tests/support/checks.h"
 #include "tests/support/temporary_folder.h"
 
@@ -141,6 +148,71 @@ TEST(ScoreImport, NamesEveryBadRowByItsLine) {
   EXPECT_THAT(complaints("design,score\n1,1\n", without_source),
               ElementsAre(HasSubstr("does not say who made the score")));
   EXPECT_THAT(complaints("design\n1\n"), ElementsAre("r.csv: there is no column score (or cost)"));
+}
+
+TEST(ScoreImport, NamesTheLineOfASourceThatIsTooLong) {
+  const std::string longest(kLongestName, 'x');
+  EXPECT_EQ(value_of(import("design,source,score\n1," + longest + ",1\n")).added, 1);
+  EXPECT_THAT(complaints("design,source,score\n1," + longest + "x,1\n"),
+              ElementsAre("r.csv:2: the source has 1001 bytes; the limit is 1000"));
+  ScoreImport known = known_store();
+  known.source = longest + "x";
+  EXPECT_THAT(complaints("design,score\n1,1\n", known),
+              ElementsAre("r.csv:2: the source has 1001 bytes; the limit is 1000"));
+}
+
+TEST(ScoreImport, RefusesMorePairsThanADesignCanHave) {
+  ScoreLedger ledger;
+  std::vector<Row> ignored;
+  for (std::int64_t seed = 1; seed < kPairsPerCandidate; ++seed) {
+    ledger.add({.candidate = {2}, .source = "real", .instance = 1, .seed = seed}, {.score = 3},
+               ignored);
+  }
+  EXPECT_THAT(complaints("design,seed,score\n1,99999,3\n1,100000,3\n", known_store(), ledger),
+              ElementsAre("r.csv:3: d1 would have scores on 100000 pairs (of source, instance and "
+                          "seed); a design can have at most 99999: leave out some of its rows"));
+  // Other candidates share the pairs of their design, and other designs have pairs of their own.
+  const auto scores = value_of(
+      import("candidate,seed,score\nc5,99999,1\nc1000002,100000,1\n", known_store(), ledger));
+  std::vector<std::string> ids;
+  for (const EvaluationRow& row : evaluations(scores))
+    ids.push_back(to_string(row.key));
+  EXPECT_THAT(ids, ElementsAre("e599999s", "e100000200001s"));
+}
+
+TEST(ScoreLedger, ReadsMoreScoresThanAUsersQueryWouldGet) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "s.db";
+  // Long names make the answer longer than 128 MiB with fewer rows.
+  const std::string source(kLongestName, 'x');
+  const std::vector<CandidateId> candidates{{1}, {2}};
+  constexpr std::int64_t kPairs = 60'000;
+  Addition addition{
+      .campaign = CampaignRow{.name = "c", .digest = "x", .deciding = "{}", .file = "", .seed = 0},
+      .designs = {{.row = {.id = {1}, .mission = "m", .method = "by hand", .repetition = 1},
+                   .name = ""}},
+      .removed = {},
+      .rows = {},
+      .profiles = {}};
+  for (const CandidateId candidate : candidates)
+    addition.rows.emplace_back(
+        CandidateRow{.id = candidate, .parameters = "{}", .machine = "x", .modules = "{}"});
+  ScoreLedger made;
+  for (std::int64_t seed = 1; seed <= kPairs; ++seed) {
+    for (const CandidateId candidate : candidates) {
+      const EvaluationKey key =
+          made.add({.candidate = candidate, .source = source, .instance = 1, .seed = seed},
+                   {.score = 1}, addition.rows);
+      addition.rows.emplace_back(
+          EvaluationRow{.key = key, .measured = {.score = 1}, .source = source});
+    }
+  }
+  ASSERT_TRUE(value_of(StoreAtRest::open(file, StoreAtRest::IfMissing::Make))->add(addition));
+  const auto reader = value_of(StoreReader::open(file));
+  const auto read = ScoreLedger::read(*reader);
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_NE(read->find({.candidate = {2}, .source = source, .instance = 1, .seed = kPairs}),
+            nullptr);
 }
 
 TEST(ScoreImport, KnowsAScoreAgainAndRefusesAnother) {
