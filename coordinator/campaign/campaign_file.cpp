@@ -219,13 +219,16 @@ std::optional<Error> check_race(const Campaign& campaign, const Method& method) 
 std::optional<Error> check_candidates(const Campaign& campaign, const Method& method) {
   const bool is_race = words_of(method.search).has_tests;
   const std::int64_t most = kCandidatesPerDesign * (is_race ? campaign.race.first_test : 1);
-  if (campaign.race.max_experiments <= most) return std::nullopt;
+  const bool fits = std::ranges::all_of(campaign.missions, [&](const CampaignMission& mission) {
+    return design_budget(campaign, mission, method) <= most;
+  });
+  if (fits) return std::nullopt;
   return Error{ErrorKind::BadInput,
                "with so many experiments it may try more than " +
                    std::to_string(kCandidatesPerDesign) +
                    " candidates, the most that a design can have: at most " + std::to_string(most) +
                    " experiments are possible",
-               "max_experiments"};
+               is_race && campaign.race.min_experiments ? "min_experiments" : "max_experiments"};
 }
 
 /// The inputs of the method's networks.
@@ -338,8 +341,8 @@ std::vector<Error> check_budget(const Campaign& campaign) {
     auto error = check_candidates(campaign, method);
     if (!error) error = check_race(campaign, method);
     if (!error) continue;
-    const bool known = error->where.empty() || error->where == "max_experiments";
-    const std::string where = known ? "" : error->where + ": ";
+    const bool is_budget = error->where == "max_experiments" || error->where == "min_experiments";
+    const std::string where = error->where.empty() || is_budget ? "" : error->where + ": ";
     error->message = "method \"" + method.name + "\": " + where + error->message;
     errors.push_back(std::move(*error));
   }

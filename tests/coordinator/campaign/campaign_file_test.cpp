@@ -5,6 +5,7 @@
 #include "sim/files/profile_file.h"
 
 #include <fstream>
+#include <string>
 
 #include "tests/coordinator/campaign/campaign_support.h"
 #include "tests/support/checks.h"
@@ -127,6 +128,20 @@ TEST(CampaignFile, HasNoMoreExperimentsThanItsCandidatesHaveNumbers) {
   EXPECT_THAT(complaints_of_budget("1_000_000", "search = \"random\"\n"), IsEmpty());
   EXPECT_THAT(complaints_of_budget("1_000_001", "search = \"random\"\n"),
               ElementsAre(HasSubstr("at most 1000000 experiments are possible")));
+}
+
+TEST(CampaignFile, TheSmallestBudgetsAreNoLargerThanItsCandidatesHaveNumbers) {
+  const auto complaints_of_race = [](const std::string& race) {
+    return complaints(FileText{.race = "max_experiments = 2_000\n" + race}.text());
+  };
+  EXPECT_THAT(complaints_of_race("min_experiments = 5_000_000\n"), IsEmpty());
+  EXPECT_THAT(complaints_of_race("min_experiments = 5_000_001\n"),
+              ElementsAre("in/x.toml:9:19: method \"watermelon\": with so many experiments it may "
+                          "try more than 1000000 candidates, the most that a design can have: at "
+                          "most 5000000 experiments are possible"));
+  EXPECT_THAT(complaints_of_race("min_experiments = 100\nnb_iterations = 1_000_000\n"),
+              ElementsAre(HasSubstr("at most 5000000 experiments are possible")))
+      << "the smallest budget that works is larger";
 }
 
 TEST(CampaignFile, ReadsFurtherProfilesOfTheTests) {
