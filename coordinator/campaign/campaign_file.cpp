@@ -147,9 +147,8 @@ void add_test_profile(TableReader& tests, std::string_view key, Profile profile,
   const bool is_own = profile.name == campaign.profile.name;
   if (is_own && profile == campaign.profile) return;
   const auto known = std::ranges::find(campaign.test_profiles, profile.name, &Profile::name);
-  if (profile.name == "real" || profile.name == "command") {
-    tests.complain(key, "scores of the source " + profile.name +
-                            " are not simulated; give the profile another name");
+  if (const auto why = complaint_about_source(profile.name)) {
+    tests.complain(key, *why);
   } else if (is_own) {
     tests.complain(key, "the campaign has another profile " + profile.name +
                             ", whose scores would be mixed up with these; give it another name");
@@ -268,6 +267,8 @@ void check_robots(TableReader& root, const Campaign& campaign) {
 std::vector<Error> mixed_names(const Campaign& campaign, const std::string& where) {
   std::vector<Error> errors;
   const auto look_at = [&](const Profile& profile) {
+    if (const auto why = complaint_about_source(profile.name))
+      errors.push_back({ErrorKind::BadInput, *why, where});
     const auto ours = built_in_profile(profile.name);
     if (!ours || *ours == profile) return;
     errors.push_back({ErrorKind::BadInput,
@@ -332,6 +333,11 @@ void complain_about_races(TableReader& root, Campaign& campaign) {
 }
 
 }  // namespace
+
+std::optional<std::string> complaint_about_source(const std::string& profile) {
+  if (profile != "real" && profile != "command") return std::nullopt;
+  return "scores of the source " + profile + " are not simulated; give the profile another name";
+}
 
 std::vector<Error> check_budget(const Campaign& campaign) {
   std::vector<Error> errors;

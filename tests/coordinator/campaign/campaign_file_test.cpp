@@ -330,6 +330,24 @@ TEST(CampaignFile, RefusesAProfileInATableThatTakesTheNameOfABuiltInOne) {
   }
 }
 
+TEST(CampaignFile, RefusesAProfileThatTakesTheNameOfScoresOfAnotherKind) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"real", "command"}) {
+    std::ofstream(folder / (name + ".toml")) << "format = 1\nbase = \"rvr\"\n";
+    for (const std::string& profile : {"profile = \"" + name + ".toml\"\n",
+                                       "profile = { base = \"rvr\", name = \"" + name + "\" }\n"}) {
+      const std::string text = FileText{.rest = "[simulator]\n" + profile}.text();
+      std::ofstream(folder / "c.toml") << text;
+      const auto campaign = read_campaign(folder / "c.toml");
+      ASSERT_FALSE(campaign) << profile;
+      EXPECT_EQ(campaign.error()[0].message, "scores of the source " + name +
+                                                 " are not simulated; give the profile another "
+                                                 "name");
+      EXPECT_TRUE(parse_campaign(text, folder / "stored.toml")) << "stores that have it are read";
+    }
+  }
+}
+
 TEST(CampaignFile, OrdersRewardsByColourWhateverTheOrderAndSpelling) {
   const auto rule = [](const std::string& rewards) {
     const std::string score = "score = { kind = \"color_reward\", rewards = " + rewards + " }\n";
