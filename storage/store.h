@@ -101,7 +101,8 @@ class Store {
   /// reported as the last news. `on_news` must not call the store.
   virtual void set_listener(std::function<void(const WriterNews&)> on_news) = 0;
 
-  /// Waits until all rows appended so far are on disk. Conflict when the file is lost, with the
+  /// Waits until all rows appended so far are on disk. Unavailable when the last commit failed: the
+  /// rows are still queued, and the writer goes on trying. Conflict when the file is lost, with the
   /// reason and the place of the remaining rows.
   virtual Expected<void> flush() = 0;
 

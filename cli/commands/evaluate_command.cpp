@@ -277,7 +277,7 @@ CommandRun declare_evaluate(Options& options) {
       "lists the built-in ones");
   options.choice("--turn-clock", arguments->turn_clock, {"cycles", "seconds"},
                  "What turns of exploration are measured in (default: as the candidate or the file "
-                 "says, else cycles)");
+                 "says, else the flavour's)");
   options.text("--profile PROFILE|FILE", arguments->profile,
                "Simulator profile: " + joined(profile_names()) +
                    " or a file (default: the candidate's or the file's, else rvr)");

@@ -138,11 +138,14 @@ Rows robot_rows() {
 /// The rows as a subquery. The names of built-in things have no quotes.
 std::string as_subquery(const Rows& rows) {
   std::vector<std::string> names;
+  names.reserve(rows.columns.size());
   for (std::size_t i = 0; i < rows.columns.size(); ++i)
     names.push_back(fmt::format("column{} AS {}", i + 1, rows.columns[i]));
   std::vector<std::string> values;
+  values.reserve(rows.cells.size());
   for (const std::vector<Cell>& cells : rows.cells) {
     std::vector<std::string> row;
+    row.reserve(cells.size());
     for (const Cell& cell : cells)
       row.push_back(cell.type == Cell::Type::Text ? "'" + cell.text + "'" : cell.text);
     values.push_back(fmt::format("({})", fmt::join(row, ", ")));

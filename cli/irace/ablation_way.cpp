@@ -110,16 +110,15 @@ std::string ablation_ending(const IraceSettings& settings, AblationType type) {
 }
 
 Expected<std::vector<std::string>> words_of_r_ablation(std::vector<std::string> words) {
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::size_t equals = words[i].find('=');
-    const std::string name = words[i].substr(0, equals);
+  for (std::string& word : words) {
+    const std::string name = word.substr(0, word.find('='));
     const auto found = std::ranges::find_if(kSwitches, [&](const RSwitch& one) {
       return name == one.name || (!one.brief.empty() && name == one.brief);
     });
     if (found == kSwitches.end()) continue;
     if (found->ours.empty())
       return bad_input("exists only in R's irace: " + std::string(found->advice), name);
-    words[i].replace(0, name.size(), found->ours);
+    word.replace(0, name.size(), found->ours);
   }
   return words;
 }

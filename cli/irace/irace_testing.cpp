@@ -83,6 +83,7 @@ ExitCode test_elites(Output& output, const IraceSetup& setup, const StorePlace& 
     }
   }
   std::vector<Configuration> configurations;
+  configurations.reserve(ids.size());
   for (const std::int64_t id : ids)
     configurations.push_back(stored->all.at(id));
   const auto text = print_configurations_file(setup.space, configurations);

@@ -16,6 +16,7 @@
 #include "cli/replay/design_argument.h"
 #include "cli/replay/design_worlds.h"
 #include "console/seeds.h"
+#include "coordinator/campaign/campaign_file.h"
 #include "sim/control/controller.h"
 #include "sim/control/flavour_file.h"
 #include "sim/control/foreign_text.h"
@@ -254,9 +255,7 @@ std::optional<std::string> complaint_about(const EvaluationJob& job, const Named
                                           : named.design_mission == job.mission.name;
   if (!same_mission) return "the design is one for the mission " + named.design_mission;
   const std::string& name = job.profile.name;
-  if (name == "real" || name == "command") {
-    return "scores of the source " + name + " are not simulated; give the profile another name";
-  }
+  if (auto why = complaint_about_source(name)) return why;
   const auto known = known_profile(named, name);
   if (known && *known != job.profile) {
     return "there is another profile " + name +

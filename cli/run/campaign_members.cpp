@@ -161,9 +161,9 @@ ExitCode CampaignMembers::fail_of(const Member& member, Error error) {
               error);
 }
 
-/// The campaign's name, if there are several campaigns.
+/// The name of the campaign among the others, if there are several.
 std::string CampaignMembers::in_front(const Member& member, const std::string& mark) const {
-  return members_.size() > 1 ? member.campaign->name + mark : "";
+  return members_.size() > 1 ? member.name + mark : "";
 }
 
 void CampaignMembers::print_resume(const Member& member) {

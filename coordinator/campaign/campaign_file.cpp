@@ -147,9 +147,8 @@ void add_test_profile(TableReader& tests, std::string_view key, Profile profile,
   const bool is_own = profile.name == campaign.profile.name;
   if (is_own && profile == campaign.profile) return;
   const auto known = std::ranges::find(campaign.test_profiles, profile.name, &Profile::name);
-  if (profile.name == "real" || profile.name == "command") {
-    tests.complain(key, "scores of the source " + profile.name +
-                            " are not simulated; give the profile another name");
+  if (const auto why = complaint_about_source(profile.name)) {
+    tests.complain(key, *why);
   } else if (is_own) {
     tests.complain(key, "the campaign has another profile " + profile.name +
                             ", whose scores would be mixed up with these; give it another name");
@@ -219,13 +218,16 @@ std::optional<Error> check_race(const Campaign& campaign, const Method& method) 
 std::optional<Error> check_candidates(const Campaign& campaign, const Method& method) {
   const bool is_race = words_of(method.search).has_tests;
   const std::int64_t most = kCandidatesPerDesign * (is_race ? campaign.race.first_test : 1);
-  if (campaign.race.max_experiments <= most) return std::nullopt;
+  const bool fits = std::ranges::all_of(campaign.missions, [&](const CampaignMission& mission) {
+    return design_budget(campaign, mission, method) <= most;
+  });
+  if (fits) return std::nullopt;
   return Error{ErrorKind::BadInput,
                "with so many experiments it may try more than " +
                    std::to_string(kCandidatesPerDesign) +
                    " candidates, the most that a design can have: at most " + std::to_string(most) +
                    " experiments are possible",
-               "max_experiments"};
+               is_race && campaign.race.min_experiments ? "min_experiments" : "max_experiments"};
 }
 
 /// The inputs of the method's networks.
@@ -265,6 +267,8 @@ void check_robots(TableReader& root, const Campaign& campaign) {
 std::vector<Error> mixed_names(const Campaign& campaign, const std::string& where) {
   std::vector<Error> errors;
   const auto look_at = [&](const Profile& profile) {
+    if (const auto why = complaint_about_source(profile.name))
+      errors.push_back({ErrorKind::BadInput, *why, where});
     const auto ours = built_in_profile(profile.name);
     if (!ours || *ours == profile) return;
     errors.push_back({ErrorKind::BadInput,
@@ -330,6 +334,11 @@ void complain_about_races(TableReader& root, Campaign& campaign) {
 
 }  // namespace
 
+std::optional<std::string> complaint_about_source(const std::string& profile) {
+  if (profile != "real" && profile != "command") return std::nullopt;
+  return "scores of the source " + profile + " are not simulated; give the profile another name";
+}
+
 std::vector<Error> check_budget(const Campaign& campaign) {
   std::vector<Error> errors;
   if (campaign.only_test) return errors;
@@ -338,8 +347,8 @@ std::vector<Error> check_budget(const Campaign& campaign) {
     auto error = check_candidates(campaign, method);
     if (!error) error = check_race(campaign, method);
     if (!error) continue;
-    const bool known = error->where.empty() || error->where == "max_experiments";
-    const std::string where = known ? "" : error->where + ": ";
+    const bool is_budget = error->where == "max_experiments" || error->where == "min_experiments";
+    const std::string where = error->where.empty() || is_budget ? "" : error->where + ": ";
     error->message = "method \"" + method.name + "\": " + where + error->message;
     errors.push_back(std::move(*error));
   }

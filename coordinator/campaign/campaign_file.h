@@ -28,6 +28,10 @@ CampaignOrErrors read_campaign(const std::filesystem::path& file,
 CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::path& file,
                                 std::optional<std::int64_t> budget = std::nullopt);
 
+/// The reason why a profile must not have this name, if there is one: a profile's name is the
+/// source of its scores, and these would be mixed up with scores of robots or programs.
+std::optional<std::string> complaint_about_source(const std::string& profile);
+
 /// Checks whether the budget is large enough for each method's space, after command-line options
 /// have changed the campaign; returns one error for each method whose race cannot run.
 /// `read_campaign` does this unless it gets a budget.

@@ -19,17 +19,6 @@ std::int64_t design_seed(std::uint64_t campaign_seed, std::int64_t id) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(rng.next() >> 1U));
 }
 
-/// The budget of each design of the method; 0 if the budget is a time, and without a race.
-std::int64_t design_budget(const Campaign& campaign, const CampaignMission& mission,
-                           const Method& method) {
-  if (!method.baseline.empty()) return 0;
-  const bool races = words_of(method.search).has_tests;
-  if (!campaign.race.min_experiments || !races) return campaign.race.max_experiments;
-  const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
-  if (!space) return campaign.race.max_experiments;
-  return total_budget(space->parameters(), race_on(campaign, mission));
-}
-
 /// In the order of the digest, so that a person can compare two campaigns line by line.
 std::string deciding_json(const Deciding& entries) {
   JsonObject object;
@@ -61,6 +50,16 @@ std::int64_t repetitions_of(const Campaign& campaign, const Method& method) {
   // A given machine is one design, because all its repetitions would be the same.
   const bool is_given = !method.baseline.empty() && method.baseline != kRandomMachine;
   return is_given ? 1 : campaign.repetitions;
+}
+
+std::int64_t design_budget(const Campaign& campaign, const CampaignMission& mission,
+                           const Method& method) {
+  if (!method.baseline.empty()) return 0;
+  const bool races = words_of(method.search).has_tests;
+  if (!campaign.race.min_experiments || !races) return campaign.race.max_experiments;
+  const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
+  if (!space) return campaign.race.max_experiments;
+  return total_budget(space->parameters(), race_on(campaign, mission));
 }
 
 std::vector<DesignRow> design_rows(const Campaign& campaign) {

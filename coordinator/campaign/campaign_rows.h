@@ -17,6 +17,11 @@ std::string campaign_digest(const Campaign& campaign);
 /// The campaign's row in its store.
 CampaignRow campaign_row(const Campaign& campaign);
 
+/// The budget of each design of the method on the mission; 0 if the budget is a time, and without a
+/// race.
+std::int64_t design_budget(const Campaign& campaign, const CampaignMission& mission,
+                           const Method& method);
+
 /// The campaign's designs, sorted by mission in the order of the file, then by method, then by
 /// repetition; ids start at 1. A design's seed is derived from the campaign's seed and the design's
 /// id.

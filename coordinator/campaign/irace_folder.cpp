@@ -198,9 +198,6 @@ Expected<IraceSetup> setup_of_target(const Campaign& campaign, const Method& met
   setup.aclib = target.aclib;
   setup.batchmode = word_of(target.batch_mode);
   setup.debug_level = target.debug_level;
-  setup.repair_configuration = campaign.repair;
-  setup.test_nb_elites = campaign.test_nb_elites;
-  setup.test_iteration_elites = campaign.test_iteration_elites;
   return setup;
 }
 
@@ -255,6 +252,9 @@ Expected<IraceSetup> irace_setup(const Campaign& campaign, const DesignRow& desi
   setup->race = campaign.race;
   setup->race.max_experiments = design.budget;
   setup->race.min_experiments.reset();
+  setup->repair_configuration = campaign.repair;
+  setup->test_nb_elites = campaign.test_nb_elites;
+  setup->test_iteration_elites = campaign.test_iteration_elites;
   setup->log_file = "./irace.Rdata";
   return setup;
 }

@@ -28,7 +28,7 @@ class CampaignStores {
   const std::string& name(std::size_t campaign) const { return entries_[campaign].name; }
 
   std::uint64_t append(std::size_t campaign, std::vector<Row> rows);
-  /// Flushes the stores that can write; a flush of the others would never return.
+  /// Flushes the stores that can write. If a disk fills up now, its news is there afterwards.
   void flush();
 
   /// The latest news of the store's writer, if there is any since the last call.

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/process/child_process.h"
+#include "base/text/toml_text.h"
 #include "coordinator/launchers/worker_program.h"
 #include "coordinator/pool/event_text.h"
 #include "coordinator/pool/task_key.h"
@@ -183,11 +184,12 @@ class ProcessReferee final : public Referee {
   }
 
   static Ruling timed_out(const AskReferee& ask) {
-    const auto limit = std::chrono::duration_cast<std::chrono::seconds>(ask.timeout);
+    const std::chrono::duration<double> limit = ask.timeout;
     return {.kind = Ruling::Kind::TimedOut,
             .reason = "the evaluation of " + name_of(ask.task.key) + " took longer than " +
-                      std::to_string(limit.count()) +
-                      " s, on this host itself too: raise task_timeout_s"};
+                      number_text(limit.count()) +
+                      " s, on this host itself too: raise `timeout` in [workers] of the campaign's "
+                      "file"};
   }
 
   /// Makes sure that a process is running and waits for tasks.

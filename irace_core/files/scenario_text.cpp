@@ -61,7 +61,7 @@ class Printer {
     const bool always = is_35 && contains(kOtherDefaultIn35, field.name);
     if (is_file || (is_default && !always)) return;
     if (field.name == "repairConfiguration") {
-      remark(field.name, "is a program here, and a function of R there");
+      remark(field.name, "is left out: it is a program here, and a function of R there");
     } else if (is_35 && field.name == "postselection") {
       // If it is left out, it is off in 3.5.
     } else if (is_35 && contains(kNewIn4, field.name)) {

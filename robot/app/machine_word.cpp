@@ -49,24 +49,26 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
     flavour = given->name;
     own = kept_flavour(std::move(*given));
   }
-  auto known = find_flavour(flavour, turn_clock.value_or(TurnClock::Cycles), own);
-  if (!known) return Unexpected(known.error());
+  const auto found = find_flavour(flavour, own);
+  if (!found) return Unexpected(found.error());
+  Flavour known = **found;
+  if (turn_clock) known.exploration.turn_clock = *turn_clock;
   if (const auto& mission = filed->head.mission) {
     if (auto why = other_robot("the machine", mission->mission.robot, kind))
       return bad_input(std::move(*why), filed->place);
   }
-  if (const auto why = misfit(*known, kind))
+  if (const auto why = misfit(known, kind))
     return bad_input(*why + "; give a machine of another flavour, or another --kind of robot",
                      filed->place);
-  auto controller = parse_controller(filed->text, *known);
+  auto controller = parse_controller(filed->text, known);
   if (!controller) {
     Error error = controller.error();
     error.where = filed->place + (error.where.empty() ? "" : ", " + error.where);
     return Unexpected(std::move(error));
   }
-  if (const auto complaint = complaint_about_running(*controller, *known))
+  if (const auto complaint = complaint_about_running(*controller, known))
     return bad_input(*complaint, filed->place);
-  return RobotMachine{std::move(*known), std::move(*controller)};
+  return RobotMachine{std::move(known), std::move(*controller)};
 }
 
 Expected<Robot> find_kind(const std::string& word) {

@@ -71,8 +71,10 @@ Expected<void> GroupWriter::flush() {
   const std::uint64_t wanted = last_ticket_;
   awaited_ = std::max(awaited_, wanted);
   work_.notify_one();
-  committed_changed_.wait(guard, [&] { return committed_ >= wanted || lost_; });
-  return lost_ ? Expected<void>(Unexpected(*lost_)) : Expected<void>();
+  committed_changed_.wait(guard, [&] { return committed_ >= wanted || lost_ || refused_; });
+  if (lost_) return Unexpected(*lost_);
+  if (committed_ < wanted) return Unexpected(*refused_);
+  return {};
 }
 
 std::vector<StoredScore> GroupWriter::scores() {
@@ -140,12 +142,19 @@ void GroupWriter::run(const std::stop_token& stop) {
       tell({.committed = ticket});
       const std::lock_guard guard(mutex_);
       committed_ = ticket;
+      refused_.reset();
       committed_changed_.notify_all();
     }
     if (trouble.empty()) continue;
-    if (trouble != before) tell({.committed = ticket, .trouble = trouble});
+    if (trouble != before) {
+      tell({.committed = ticket,
+            .trouble = fmt::format("{}; nothing is lost, trying again every {} ms", trouble,
+                                   retry_.count())});
+    }
     if (stop.stop_requested()) return;
     std::unique_lock guard(mutex_);
+    refused_ = Error{ErrorKind::Unavailable, trouble, writer_.file.path().string()};
+    committed_changed_.notify_all();
     work_.wait_for(guard, stop, retry_, [] { return false; });
   }
 }
@@ -241,8 +250,7 @@ std::string GroupWriter::commit(const std::vector<Batch>& group) {
           error.what());
       return {};
     }
-    return fmt::format("the store cannot be written: {}; nothing is lost, trying again every {} ms",
-                       error.what(), retry_.count());
+    return fmt::format("the store cannot be written: {}", error.what());
   }
 }
 

@@ -72,14 +72,15 @@ class GroupWriter final : public Store {
   std::string
       changed_;  ///< why the store is not written any more; used by the writer's thread only
 
-  std::mutex mutex_;  ///< guards the next seven
+  std::mutex mutex_;  ///< guards the next eight
   std::condition_variable_any work_;
   std::condition_variable committed_changed_;
   std::vector<Batch> queue_;
   std::uint64_t last_ticket_ = 0;
   std::uint64_t committed_ = 0;
-  std::uint64_t awaited_ = 0;  ///< a thread waits in flush() for this ticket
-  std::optional<Error> lost_;  ///< set when the file is lost; nothing is written any more
+  std::uint64_t awaited_ = 0;     ///< a thread waits in flush() for this ticket
+  std::optional<Error> refused_;  ///< why the last commit failed; none after one that succeeded
+  std::optional<Error> lost_;     ///< set when the file is lost; nothing is written any more
 
   std::mutex listener_mutex_;
   std::function<void(const WriterNews&)> listener_;

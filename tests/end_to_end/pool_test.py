@@ -65,6 +65,30 @@ class Pool(ProgramTest):
         self.assertIn("campaign first\nd1", done.stdout)
         self.assertIn("campaign second\nd1", done.stdout)
 
+    def test_campaigns_of_one_name_have_those_of_their_stores(self):
+        files = []
+        for name in ("a", "b"):
+            file = self.folder / name / "campaign.toml"
+            file.parent.mkdir()
+            file.write_text(f"""format = 1
+[[mission]]
+name = "{name}"
+[[method]]
+name = "m"
+parameters_text = 'x "" r (0, 1)'
+[race]
+max_experiments = 200
+[simulator]
+kind = "command"
+command = ["/bin/false"]
+""")
+            files.append(file)
+        done = call("run", *files, "--workers", "2")
+        self.assertEqual(done.returncode, 6, done.stderr)
+        for file in files:
+            self.assertIn(f"{file.with_suffix('.db')}: ", done.stderr)
+        self.assertNotIn(": campaign: ", done.stderr)
+
     def assert_refused(self, sentence, *arguments):
         done = call("run", *arguments)
         self.assertEqual(done.returncode, 2, done.stderr)

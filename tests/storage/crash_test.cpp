@@ -4,13 +4,16 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <condition_variable>
+#include <future>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "base/rng.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/eventually.h"
 #include "tests/support/faulty_disk.h"
 #include "tests/support/long_runs.h"
 
@@ -96,7 +99,8 @@ TEST_F(CrashTest, AnyChangeOfTheDiskMayFailAndNothingIsLost) {
         disk.fail_at(n, code, 2);
         for (const auto& batch : campaign.batches) {
           store->append(batch);
-          store->flush();
+          while (!store->flush()) {
+          }
         }
         failed = disk.changes() >= before + n;
         store.reset();
@@ -107,6 +111,31 @@ TEST_F(CrashTest, AnyChangeOfTheDiskMayFailAndNothingIsLost) {
       EXPECT_TRUE(open_reader(folder / "s.db")->integrity().empty());
     }
   }
+}
+
+TEST_F(CrashTest, AFlushThatTheDiskRefusesSaysSoAndTheNextOneTriesAgain) {
+  const TemporaryFolder folder;
+  FaultyDisk disk;
+  Told told;
+  auto store = open_store(folder / "s.db", campaign, kHasty);
+  store->set_listener(std::ref(told));
+  disk.fail_at(1, SQLITE_FULL, 1'000'000'000);
+  for (const auto& batch : campaign.batches)
+    store->append(batch);
+  auto flushing = std::async(std::launch::async, [&] { return store->flush(); });
+  const bool returned = eventually(
+      [&] { return flushing.wait_for(std::chrono::seconds(0)) == std::future_status::ready; });
+  EXPECT_TRUE(returned) << "it waits for room without a word";
+  EXPECT_THAT(told.trouble(), testing::HasSubstr("full")) << "it is told before";
+  disk.fail_at(1, SQLITE_OK);
+  const auto flushed = flushing.get();
+  if (returned) {
+    EXPECT_EQ(why_not(flushed).kind, ErrorKind::Unavailable);
+    EXPECT_THAT(why_not(flushed).message, testing::HasSubstr("cannot be written"));
+  }
+  EXPECT_TRUE(eventually([&] { return store->flush().has_value(); }));
+  EXPECT_TRUE(told.well_again());
+  EXPECT_EQ(digest_of(folder / "s.db"), wanted);
 }
 
 TEST_F(CrashTest, AFailureAtTheBirthOfAStoreLeavesOneThatOpens) {

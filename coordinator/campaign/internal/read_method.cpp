@@ -410,9 +410,8 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken,
       table.integer("max_transitions", {1, most_transitions}).value_or(most_transitions);
   method.max_subtrees = table.integer("max_subtrees", {1, kMaxSubtrees}).value_or(kMaxSubtrees);
   if (flavour != nullptr) {
-    if (method.baseline.empty() || table.has("turn_clock")) {
-      method.turn_clock = read_turn_clock(table, *flavour);
-    }
+    // A given machine's file may set another clock than its flavour.
+    if (!is_given || table.has("turn_clock")) method.turn_clock = read_turn_clock(table, *flavour);
     // The default value is allowed, because the text in stores contains it.
     if (table.has("turn_clock") && method.architecture == Architecture::Network &&
         method.turn_clock != flavour->exploration.turn_clock) {

@@ -5,6 +5,7 @@
 #include "sim/files/profile_file.h"
 
 #include <fstream>
+#include <string>
 
 #include "tests/coordinator/campaign/campaign_support.h"
 #include "tests/support/checks.h"
@@ -127,6 +128,20 @@ TEST(CampaignFile, HasNoMoreExperimentsThanItsCandidatesHaveNumbers) {
   EXPECT_THAT(complaints_of_budget("1_000_000", "search = \"random\"\n"), IsEmpty());
   EXPECT_THAT(complaints_of_budget("1_000_001", "search = \"random\"\n"),
               ElementsAre(HasSubstr("at most 1000000 experiments are possible")));
+}
+
+TEST(CampaignFile, TheSmallestBudgetsAreNoLargerThanItsCandidatesHaveNumbers) {
+  const auto complaints_of_race = [](const std::string& race) {
+    return complaints(FileText{.race = "max_experiments = 2_000\n" + race}.text());
+  };
+  EXPECT_THAT(complaints_of_race("min_experiments = 5_000_000\n"), IsEmpty());
+  EXPECT_THAT(complaints_of_race("min_experiments = 5_000_001\n"),
+              ElementsAre("in/x.toml:9:19: method \"watermelon\": with so many experiments it may "
+                          "try more than 1000000 candidates, the most that a design can have: at "
+                          "most 5000000 experiments are possible"));
+  EXPECT_THAT(complaints_of_race("min_experiments = 100\nnb_iterations = 1_000_000\n"),
+              ElementsAre(HasSubstr("at most 5000000 experiments are possible")))
+      << "the smallest budget that works is larger";
 }
 
 TEST(CampaignFile, ReadsFurtherProfilesOfTheTests) {
@@ -312,6 +327,24 @@ TEST(CampaignFile, RefusesAProfileInATableThatTakesTheNameOfABuiltInOne) {
     ASSERT_FALSE(other) << header;
     EXPECT_THAT(other.error()[0].message, HasSubstr("`argos3` is built in with other values"));
     EXPECT_TRUE(parse_campaign(FileText{.rest = table}.text(), "stored.toml"));
+  }
+}
+
+TEST(CampaignFile, RefusesAProfileThatTakesTheNameOfScoresOfAnotherKind) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"real", "command"}) {
+    std::ofstream(folder / (name + ".toml")) << "format = 1\nbase = \"rvr\"\n";
+    for (const std::string& profile : {"profile = \"" + name + ".toml\"\n",
+                                       "profile = { base = \"rvr\", name = \"" + name + "\" }\n"}) {
+      const std::string text = FileText{.rest = "[simulator]\n" + profile}.text();
+      std::ofstream(folder / "c.toml") << text;
+      const auto campaign = read_campaign(folder / "c.toml");
+      ASSERT_FALSE(campaign) << profile;
+      EXPECT_EQ(campaign.error()[0].message, "scores of the source " + name +
+                                                 " are not simulated; give the profile another "
+                                                 "name");
+      EXPECT_TRUE(parse_campaign(text, folder / "stored.toml")) << "stores that have it are read";
+    }
   }
 }
 

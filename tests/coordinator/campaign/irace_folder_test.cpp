@@ -1,5 +1,8 @@
 #include "coordinator/campaign/irace_folder.h"
 
+#include <string>
+#include <vector>
+
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/machine_space.h"
 #include "coordinator/campaign/tree_space.h"
@@ -162,6 +165,24 @@ TEST(IraceFolder, SaysWhatThatIraceCannotBeTold) {
   campaign.race.max_time = 100;
   EXPECT_EQ(why_not(irace_folder(campaign, design, IraceVersion::V4, "/swarmsmith")).where,
             "max_time");
+}
+
+TEST(IraceFolder, TestsAsManyElitesAsItsCampaign) {
+  const std::string race =
+      "max_experiments = 2000\ntest_nb_elites = 3\n"
+      "test_iteration_elites = true\nrepair_configuration = \"/opt/repair\"\n";
+  for (const FileText& file :
+       {FileText{.race = race},
+        FileText{.race = race,
+        .rest = "[simulator]\nkind = \"command\"\ncommand = [\"/opt/run.sh\"]\n"}}) {
+    const Campaign campaign = parsed(file.text());
+    const auto folder = value_of(
+        irace_folder(campaign, design_rows(campaign).front(), IraceVersion::V4, "/swarmsmith"));
+    const std::string scenario = file_of(folder.files, "scenario.txt");
+    EXPECT_THAT(scenario, HasSubstr("testNbElites = 3\n"));
+    EXPECT_THAT(scenario, HasSubstr("testIterationElites = 1\n"));
+    EXPECT_THAT(folder.remarks, ElementsAre(HasSubstr("`repairConfiguration` is left out")));
+  }
 }
 
 TEST(IraceFolder, OfABaselineHasNothingToRace) {

@@ -53,6 +53,21 @@ TEST_F(OwnFlavour, LivesWholeInTheCampaignsText) {
   EXPECT_THAT(own_flavours_in(normalised_text(parsed(FileText().text()))), ElementsAre());
 }
 
+TEST_F(OwnFlavour, ItsTurnClockHoldsForMethodsThatSetNone) {
+  const std::string seconds =
+      "format = 1\nbase = \"watermelon\"\n[exploration]\nturn_clock = \"seconds\"\n";
+  for (const char* keys : {"", "baseline = \"random\"\n", "baseline = \"--nstates 1 --s0 1\"\n",
+                           "baseline = \"random\"\narchitecture = \"network\"\n"}) {
+    const auto campaign = value_of(read(seconds, {.method = kMethod + keys}));
+    EXPECT_EQ(campaign.methods.front().turn_clock, TurnClock::Seconds) << keys;
+    const auto again = value_of(parse_campaign(normalised_text(campaign), "stored.toml"));
+    EXPECT_EQ(again.methods, campaign.methods) << keys;
+  }
+  const std::string own = "baseline = \"random\"\nturn_clock = \"cycles\"\n";
+  const auto campaign = value_of(read(seconds, {.method = kMethod + own}));
+  EXPECT_EQ(campaign.methods.front().turn_clock, TurnClock::Cycles);
+}
+
 TEST_F(OwnFlavour, HasTheDecimalsOfTheSearch) {
   const std::string fine =
       "format = 1\nbase = \"watermelon\"\n[conditions]\nfixed_probability = { number = 0, beta = { "

@@ -172,6 +172,8 @@ TEST_F(Referees, MakeNoScoreOfATime) {
   start(800'000);
   const Ruling ruling = ruling_on(tasks_of(1)[0], std::chrono::milliseconds(5));
   EXPECT_EQ(ruling.kind, Ruling::Kind::TimedOut);
+  EXPECT_THAT(ruling.reason, EndsWith("took longer than 0.005 s, on this host itself too: raise "
+                                      "`timeout` in [workers] of the campaign's file"));
 }
 
 TEST_F(Referees, BlameTheHostForAProcessThatIsNotReady) {

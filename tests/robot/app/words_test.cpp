@@ -1,4 +1,6 @@
 #include <fstream>
+#include <optional>
+#include <string>
 
 #include "robot/app/commands.h"
 #include "robot/app/machine_word.h"
@@ -44,6 +46,19 @@ TEST(MachineWord, NeedsAFlavour) {
   EXPECT_EQ(with.flavour.exploration.turn_clock, TurnClock::Seconds);
   EXPECT_FALSE(robot_machine("--nstates 9 --s0 1", "watermelon", {}, rvr()));
   EXPECT_FALSE(robot_machine("/no/such/file.fsm", "watermelon", {}, rvr()));
+}
+
+TEST(MachineWord, HasTheTurnClockOfItsFlavour) {
+  const TemporaryFolder folder;
+  const std::string mine = (folder / "mine.toml").string();
+  std::ofstream(mine)
+      << "format = 1\nbase = \"watermelon\"\n[exploration]\nturn_clock = \"seconds\"\n";
+  const auto clock = [&](std::optional<TurnClock> given) {
+    return value_of(robot_machine("--nstates 1 --s0 1", mine, given, rvr()))
+        .flavour.exploration.turn_clock;
+  };
+  EXPECT_EQ(clock({}), TurnClock::Seconds);
+  EXPECT_EQ(clock(TurnClock::Cycles), TurnClock::Cycles);
 }
 
 TEST(MachineWord, IsForTheRobotOfTheNode) {
