@@ -195,7 +195,9 @@ ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word,
   if (!store) return fail(output, store.error());
   // With the start that it had, it is no more doubtful than before.
   if (again->rows.key != kept->rows.key) {
-    if (const auto other = check_same_film(again->run, kept->store, kept->id, output); !other)
+    if (const auto other =
+            check_same_film(again->run, again->rows.key, kept->store, kept->id, output);
+        !other)
       return fail(output, other.error());
   }
   const auto written = (*store)->rescore_real_run(kept->id, again->rows);
