@@ -20,7 +20,7 @@ def setUpModule():
     LAB.film("run", "--robot-logs", "--latency-ms", round(1000 * LATENCY_S), seconds=12)
 
 
-class RobotLogs(unittest.TestCase):
+class Logged(unittest.TestCase):
     def setUp(self):
         """A copy of the run's texts, to be changed; the film is read where it is."""
         self.folder = LAB.folder / self._testMethodName
@@ -68,6 +68,8 @@ class RobotLogs(unittest.TestCase):
         self.assertEqual(len(texts), 1, result["issues"])
         return texts[0]
 
+
+class RobotLogs(Logged):
     def test_a_good_run_tells_the_latency_and_keeps_the_commands(self):
         result = self.score()
         self.assertNotEqual(result["verdict"], "INVALID", result["reasons"])
@@ -88,7 +90,8 @@ class RobotLogs(unittest.TestCase):
         self.assertEqual(beside[:2], (360, 360))
         self.assertLess(beside[2], 1e-9)
         # From the stored rows the same follows, without the files.
-        for file in self.folder.glob("run.rvr*"):
+        kept = {file: file.read_text() for file in self.folder.glob("run.rvr*")}
+        for file in kept:
             file.unlink()
         again = self.rescore()
         self.assertEqual(again["robots"], result["robots"])
@@ -101,6 +104,8 @@ class RobotLogs(unittest.TestCase):
         neighbours = [robot["reality"]["neighbours"] for robot in report["robots"]]
         self.assertEqual(neighbours, [robot["reality"]["neighbours"] for robot in result["robots"]])
         self.assertTrue(all(robot["there"] == robot["seen"] for robot in neighbours), neighbours)
+        for file, text in kept.items():
+            file.write_text(text)
         self.check_profile()
         text = call(TRACK, "rescore", "r1", "--store", self.store).stdout
         self.assertRegex(text, r"latency \d+ ms \+- \d+\.\d ms, from its commands to its motion")
@@ -130,6 +135,11 @@ class RobotLogs(unittest.TestCase):
             done = call(TRACK, "profile", *words, "--store", self.store)
             self.assertNotEqual(done.returncode, 0, done.stdout)
             self.assertIn(said, done.stderr)
+        # The same run by another name.
+        for runs in ((self.log, f"{self.folder}/./run.toml"), ("r1", self.log)):
+            done = call(TRACK, "profile", *runs, "--store", self.store, "--arena", LAB.lab / "arena.toml")
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            self.assertRegex(done.stderr, f"{runs[0]} and {runs[1]} have the same log of rvr1, so they are one run")
         must(TRACK, "override", "r1", "--store", self.store, "--verdict", "invalid", "--who", "A", "--reason", "seen")
         done = call(TRACK, "profile", "r1", "--store", self.store)
         self.assertEqual(done.returncode, 1)
