@@ -74,6 +74,7 @@ OrRefusal<KnownRun> run_of_log(const ProfileArguments& arguments, const std::str
   ScoreArguments score;
   score.run = word;
   score.arena = arguments.arena;
+  score.store = arguments.store;
   auto plan = plan_run(score);
   if (!plan) return tl::unexpected(std::move(plan.error()));
   auto run = watch_run(*plan, output);

@@ -1,13 +1,16 @@
 """Robots' own logs beside the film: read, checked, kept, judged again, and the latency that follows from both."""
 import json
+import os
+import pathlib
 import re
 import shutil
 import sqlite3
 import tomllib
 import unittest
 
-from filmed_lab import TRACK, FilmedLab, call, must
+from filmed_lab import BIN, TRACK, FilmedLab, call, must
 
+SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 LAB = None
 LATENCY_S = 0.12
 INVALID_RUN = 6
@@ -241,6 +244,24 @@ class RobotLogs(Logged):
         self.assertEqual(done.returncode, 2)
         self.assertIn("rvr9", done.stderr)
         self.assertIn("E_CONFIG", done.stderr)
+
+
+class Designed(Logged):
+    """Runs of a store that has a design, d1, for aggregation."""
+
+    def setUp(self):
+        super().setUp()
+        must(BIN / "swarmsmith", "backup", SOURCE / "tests/golden/stores/schema-6.sqlite", self.store)
+
+    def with_design(self):
+        self.change("run.toml", r'\nstart = ', '\ndesign = "d1"\nstart = ')
+
+    def test_a_profile_of_a_run_log_finds_its_design_in_the_store(self):
+        self.with_design()
+        self.change("run.toml", r'design = "d1"', 'design = "d9"')
+        done = call(TRACK, "profile", self.log, "--arena", LAB.lab / "arena.toml", "--store", self.store)
+        self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+        self.assertIn("no design d9", done.stderr)
 
 
 class Sync(unittest.TestCase):
