@@ -135,6 +135,8 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRow
     if (!ran.design.empty() || !ran.candidate.empty()) {
       const auto control = control_of(store_word(arguments.store), ran);
       if (!control) return tl::unexpected(control.error());
+      if (auto fits = check_mission(*control, ran, store_word(arguments.store)); !fits)
+        return tl::unexpected(std::move(fits.error()));
       candidate = control->candidate;
       machine = control->machine;
     }

@@ -256,6 +256,15 @@ class Designed(Logged):
     def with_design(self):
         self.change("run.toml", r'\nstart = ', '\ndesign = "d1"\nstart = ')
 
+    def test_a_candidate_for_another_mission_is_refused(self):
+        self.score()
+        self.with_design()
+        self.change("run.toml", r'mission = ".*"', 'mission = "grid_exploration"')
+        done = call(TRACK, "rescore", "r1", "--store", self.store, "--run", self.log)
+        self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+        self.assertIn('was designed for mission "aggregation", but the run is of mission "grid_exploration"', done.stderr)
+        self.assertEqual(self.rows("SELECT mission, candidate FROM v_real_runs"), [("aggregation", None)])
+
     def test_a_profile_of_a_run_log_finds_its_design_in_the_store(self):
         self.with_design()
         self.change("run.toml", r'design = "d1"', 'design = "d9"')
