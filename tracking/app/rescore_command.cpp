@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "base/id.h"
 #include "base/plain_text.h"
@@ -67,17 +68,18 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
 }
 
 /// Reads the robots' logs that a corrected run log names; if a file is missing, the stored log is
-/// kept.
+/// kept if it still belongs to the run.
 void read_logs_again(const RunLog& log, const std::string& file,
                      const std::optional<RanMachine>& machine, Observations& observations) {
   RobotFiles files = read_robot_files(log, std::filesystem::path(file).parent_path(), machine);
-  std::erase_if(files.issues, [&](const Issue& issue) {
-    if (issue.code != IssueCode::LogUnreadable) return false;
+  for (const Issue& issue : std::exchange(files.issues, {})) {
     const auto stored = std::ranges::find(observations.logs, issue.robot, &RobotLog::robot);
-    if (stored == observations.logs.end()) return false;
-    files.logs.push_back(std::move(*stored));
-    return true;
-  });
+    if (issue.code != IssueCode::LogUnreadable || stored == observations.logs.end()) {
+      files.issues.push_back(issue);
+    } else {
+      take_log(std::move(*stored), log, machine, files);
+    }
+  }
   observations.logs = std::move(files.logs);
   std::erase_if(observations.issues, [](const Issue& issue) {
     return issue.code == IssueCode::LogUnreadable || issue.code == IssueCode::LogForeign;

@@ -265,6 +265,14 @@ class Designed(Logged):
         self.assertIn('was designed for mission "aggregation", but the run is of mission "grid_exploration"', done.stderr)
         self.assertEqual(self.rows("SELECT mission, candidate FROM v_real_runs"), [("aggregation", None)])
 
+    def test_a_log_that_is_kept_must_be_of_the_design(self):
+        self.score()
+        self.with_design()
+        for file in self.folder.glob("run.rvr*"):
+            file.unlink()
+        again = self.rescore("--run", self.log, accepted=(INVALID_RUN,))
+        self.assertEqual(self.codes(again), ["E_LOG_FOREIGN"] * 3)
+
     def test_a_profile_of_a_run_log_finds_its_design_in_the_store(self):
         self.with_design()
         self.change("run.toml", r'design = "d1"', 'design = "d9"')
