@@ -40,6 +40,9 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   if (log.videos.empty()) log.videos = before.videos;
   if (log.mission.name.empty()) log.mission = before.mission;
   if (log.notes.empty()) log.notes = before.notes;
+  if (log.recorded.empty()) log.recorded = before.recorded;
+  if (log.layout.source == RunLayout::Source::None && log.mission.name == before.mission.name)
+    log.layout = before.layout;
   if (!log.start.time_s && log.start.sync == RunStart::Sync::None) log.start = before.start;
   if (log.videos.size() != before.videos.size()) {
     return refused(error_of(IssueCode::Config,

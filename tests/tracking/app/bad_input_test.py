@@ -376,6 +376,19 @@ class BadInput(unittest.TestCase):
             self.assertEqual(measured.returncode, said.returncode, measured.stderr)
             self.assertEqual(json.loads(measured.stdout)["score"], json.loads(said.stdout)["score"])
 
+    def test_patches_that_were_measured_are_kept_for_a_log_without_patches(self):
+        log = LAB.film("free3", mission="color_selection", seed=3)
+        text = re.sub(r"\n\[\[patch\]\].*", "", log.read_text(), flags=re.S)
+        silent = log.with_name("silent_free3.toml")
+        silent.write_text(re.sub(r"^(recorded|name) = .*\n", "", text, flags=re.M).replace("start = ", 'name = "free3"\nstart = '))
+        measured = self.score(silent, "--patches", "measured", "--recorded", "2026-11-21", "--json")
+        self.assertIn(measured.returncode, (0, 6), measured.stderr)
+        again = call(TRACK, "rescore", "r1", "--store", self.store, "--run", silent, "--json")
+        self.assertEqual(again.returncode, measured.returncode, again.stderr)
+        self.assertEqual(json.loads(again.stdout)["score"], json.loads(measured.stdout)["score"])
+        with sqlite3.connect(f"file:{self.store}?mode=ro", uri=True) as base:
+            self.assertEqual(base.execute("SELECT recorded FROM v_real_runs").fetchall(), [("2026-11-21",)])
+
     def test_settings_that_cannot_be(self):
         for number, (before, after, wanted) in enumerate((
                 ("x = 1.0430", "x = nan", r"`x` must be from -100 to 100, not nan"),
