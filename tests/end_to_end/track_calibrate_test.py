@@ -127,6 +127,11 @@ class Live(Laboratory):
         self.refused(2, ["live", "--arena", self.arena, "--camera", self.root / "ceiling.board",
                          "--board", "chess", "--port", "0"], "board")
 
+    def test_a_place_of_another_lens_is_not_used(self):
+        self.replace("ceiling.camera.toml", 'made = "2026', 'made = "2036')
+        run = ended_well(track("live", "--arena", self.arena, "--camera", self.root / "rvr1.spin.avi", "--port", "0"))
+        self.assertRegex(run.stderr, r"note: .*ceiling\.place\.toml: .*another calibration than ceiling\.camera\.toml")
+
 
 def cells_of_tag(folder, tag):
     """The tag's 8 x 8 cells, True where black, from the sheet that is printed."""
@@ -299,6 +304,11 @@ class Robots(Laboratory):
     def test_a_tag_that_is_never_seen(self):
         self.replace("arena.toml", "tag = 1\n", "tag = 7\n")
         self.refused(1, self.calibrate(), "E_ROBOT_MISSING", "tag 7")
+
+    def test_a_place_of_another_lens(self):
+        self.replace("ceiling.camera.toml", 'made = "2026', 'made = "2036')
+        self.refused(1, self.calibrate(), "E_CALIB_QUALITY", "ceiling.place.toml",
+                     "was found with another calibration than ceiling.camera.toml")
 
     def test_a_tag_outside_of_the_body(self):
         self.refused(1, [*self.calibrate(), "--kind", "epuck"], "E_SPIN_QUALITY",

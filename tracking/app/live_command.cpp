@@ -163,6 +163,11 @@ ExitCode live(const LiveWords& words, Output& output) {
   if (!rig) return fail_all(output, rig.error());
   const auto camera = camera_of(*rig, words.view, "--view");
   if (!camera) return failed(camera.error());
+  // The preview shows pictures without a place, too, but positions from a wrong one would mislead.
+  for (const Error& misfit : misfits_of_place(*rig, *camera)) {
+    print_note(output, "note: " + to_string(misfit) + "; until then no positions are shown");
+    rig->places.erase(camera->place_file);
+  }
   LiveScenery scenery;
   if (!words.mission.empty()) {
     auto mission = find_mission(words.mission, "");
