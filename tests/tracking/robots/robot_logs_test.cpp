@@ -1,6 +1,7 @@
 #include "tracking/robots/robot_logs.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/math.h"
 #include "base/rng.h"
@@ -371,6 +372,19 @@ TEST_F(RobotLogsTest, OfAnotherRunRobotMachineOrWorldAreForeign) {
               HasSubstr("has cycle 3 after cycle 7"));
   EXPECT_THAT(misfit([](RunRecord& record) { record.rows[9].clock_s -= 100; }),
               HasSubstr("do not increase"));
+  EXPECT_THAT(misfit([](RunRecord& record) { record.rows.back().clock_s = 1e12; }),
+              HasSubstr("has cycle 600 at a time that is not of this run"));
+  EXPECT_THAT(misfit([](RunRecord& record) {
+                record.rows.back().clock_s = std::numeric_limits<double>::infinity();
+              }),
+              HasSubstr("has cycle 600 at a time"));
+  EXPECT_THAT(misfit([](RunRecord& record) {
+                record.rows.back().sensed.time_s = 1e12;
+                record.rows.back().clock_s = 1e12 + kBegin_s;
+              }),
+              HasSubstr("has cycle 600 at a time"));
+  EXPECT_THAT(misfit([](RunRecord& record) { record.rows.front().clock_s = -1e12; }),
+              HasSubstr("has cycle 1 at a time"));
   EXPECT_FALSE(other_machine(logs[1], logs[0]));
   logs[1].record.head.machine_digest = "bb22";
   const auto other = value_of(other_machine(logs[1], logs[0]));
