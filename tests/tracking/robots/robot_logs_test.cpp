@@ -291,6 +291,25 @@ TEST_F(RobotLogsTest, TreadsThatActLateAreSeenWhateverTheirDriverSays) {
   EXPECT_EQ(check_of(checks, "latency of the treads", "rvr2")->outcome, Check::Outcome::Passed);
 }
 
+TEST_F(RobotLogsTest, TreadsThatMayBeInTimeHaveTheLimitOfThoseThatAreLate) {
+  RobotFindings found = judged();
+  ASSERT_TRUE(found.reality.at(0).has_value());
+  found.reality[0]->latency.seconds = 0.36;
+  found.reality[0]->latency.error_s = 0.01;
+  found.reality[0]->slip.way = {.gain = 1.31, .error = 0.02};
+  Observations seen;
+  seen.logs = logs;
+  const std::vector<Check> asked = checks_of_logs(run, seen, log, found);
+  const Check* latency = check_of(asked, "latency of the treads", "rvr1");
+  ASSERT_NE(latency, nullptr);
+  EXPECT_EQ(latency->outcome, Check::Outcome::Passed);
+  EXPECT_EQ(value_text(*latency) + ", " + limit_text(*latency), "360 ms, at most 350 ms");
+  const Check* way = check_of(asked, "way of what was told", "rvr1");
+  ASSERT_NE(way, nullptr);
+  EXPECT_EQ(way->outcome, Check::Outcome::Passed);
+  EXPECT_EQ(limit_text(*way), "at most 30 % off");
+}
+
 TEST_F(RobotLogsTest, TreadsOfAnotherSpeedAreSeenWhateverTheirDriverSays) {
   for (LogRow& row : logs[0].record.rows) {
     row.command.left_mps *= 2;
