@@ -265,6 +265,23 @@ class Arenas(Laboratory):
         without_date = lambda text: [line for line in text.splitlines() if "made" not in line]
         self.assertEqual(without_date(before), without_date(after))
 
+    def test_a_film_in_chapters_counts_as_long_as_another(self):
+        pictures = pathlib.Path(tempfile.mkdtemp(dir=self.copy.parent))
+        self.addCleanup(shutil.rmtree, pictures)
+        # A sheet that someone carries through the picture for a second.
+        cells = cells_of_tag(pictures, 100)
+        for name, places, count in (("1", [(90, 60), (290, 60)], 25), ("2", [(90, 60)], 180)):
+            folder = pictures / name
+            folder.mkdir()
+            write_picture(folder / "0.png", cells, places)
+            for number in range(1, count):
+                (folder / f"{number}.png").symlink_to("0.png")
+            ended_well(track("record", folder, pictures / f"{name}.mkv", "--rate", "25"))
+            shutil.rmtree(folder)
+        for other in (*pictures.glob("*.csv"), *pictures.glob("*.svg")):
+            other.unlink()
+        self.refused(1, ["calibrate", "arena", pictures, "--arena", self.arena], "E_REF_TAGS", "seen: 100", "missing: 101")
+
     def test_another_size(self):
         for old, new in (("width = 960", "width = 1280"), ("height = 540", "height = 720"),
                          ("cx = ", "cx = 640 #"), ("cy = ", "cy = 360 #")):
