@@ -4,6 +4,7 @@ import json
 import math
 import pathlib
 import re
+import resource
 import shutil
 import struct
 import subprocess
@@ -16,9 +17,9 @@ from programs import BIN, PATIENCE, ended_well
 BOARD = "charuco:9x6:0.04:0.03:4x4_50"
 
 
-def track(*words, cwd=None):
+def track(*words, cwd=None, **more):
     return subprocess.run([BIN / "swarmsmith-track", *map(str, words)], capture_output=True,
-                          text=True, timeout=120 * PATIENCE, cwd=cwd)
+                          text=True, timeout=120 * PATIENCE, cwd=cwd, **more)
 
 
 class Rendered:
@@ -125,7 +126,27 @@ class Live(Laboratory):
 
     def test_a_board_that_is_none(self):
         self.refused(2, ["live", "--arena", self.arena, "--camera", self.root / "ceiling.board",
-                         "--board", "chess", "--port", "0"], "board")
+                         "--board", "chess", "--port", "0", "--record", self.copy / "x.mkv"], "board")
+
+    def test_a_recording_leaves_out_pictures_within_a_millisecond(self):
+        pictures = self.copy / "pictures"
+        pictures.mkdir()
+        for number, micros in enumerate((0, 100_000, 100_300, 200_000, 300_000)):
+            write_picture(pictures / f"{1_700_000_000_000_000 + micros}.png", [], [])
+        ended_well(track("live", "--arena", self.arena, "--camera", pictures, "--port", "0",
+                         "--record", self.copy / "x.mkv"))
+        rows = (self.copy / "x.times.csv").read_text().splitlines()
+        self.assertEqual(rows, ["frame,time_s", "0,0.000000", "1,0.100000", "2,0.200000", "3,0.300000"])
+
+    def test_a_recording_without_a_frame_leaves_no_file(self):
+        def no_room():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))
+        run = track("live", "--arena", self.arena, "--camera", self.root / "ceiling.board", "--port", "0",
+                    "--record", self.copy / "x.mkv", restore_signals=False,  # Python ignores SIGXFSZ
+                    preexec_fn=no_room)
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertIn("x.mkv: cannot be written: File too large", run.stderr)
+        self.assertEqual(list(self.copy.glob("x.*")), [])
 
     def test_a_place_of_another_lens_is_not_used(self):
         self.replace("ceiling.camera.toml", 'made = "2026', 'made = "2036')
