@@ -431,6 +431,12 @@ class BadInput(unittest.TestCase):
         log = self.changed_log(LAB.film("good"), ('start = "1.2 s"\n', ""))
         self.assert_refused(self.score(log), "E_CONFIG", "the start of the run is unknown", exit_code=2)
 
+    def test_a_floor_tag_that_shall_start_the_run(self):
+        log = self.changed_log(LAB.film("good"), ('start = "1.2 s"', 'sync = { tag = 100, when = "hidden" }'))
+        self.assert_refused(self.score(log), "E_CONFIG", "tag 100 .*floor tag", exit_code=2)
+        done = self.score(LAB.film("good"), "--sync-shown", "101")
+        self.assert_refused(done, "E_CONFIG", "tag 101 .*floor tag", exit_code=2)
+
     def test_same_run_twice(self):
         first = self.score(LAB.film("good"))
         self.assertEqual(first.returncode, 0, first.stderr)
