@@ -4,6 +4,7 @@ import json
 import math
 import pathlib
 import re
+import resource
 import shutil
 import struct
 import subprocess
@@ -16,9 +17,9 @@ from programs import BIN, PATIENCE, ended_well
 BOARD = "charuco:9x6:0.04:0.03:4x4_50"
 
 
-def track(*words, cwd=None):
+def track(*words, cwd=None, **more):
     return subprocess.run([BIN / "swarmsmith-track", *map(str, words)], capture_output=True,
-                          text=True, timeout=120 * PATIENCE, cwd=cwd)
+                          text=True, timeout=120 * PATIENCE, cwd=cwd, **more)
 
 
 class Rendered:
@@ -125,7 +126,32 @@ class Live(Laboratory):
 
     def test_a_board_that_is_none(self):
         self.refused(2, ["live", "--arena", self.arena, "--camera", self.root / "ceiling.board",
-                         "--board", "chess", "--port", "0"], "board")
+                         "--board", "chess", "--port", "0", "--record", self.copy / "x.mkv"], "board")
+
+    def test_a_recording_leaves_out_pictures_within_a_millisecond(self):
+        pictures = self.copy / "pictures"
+        pictures.mkdir()
+        for number, micros in enumerate((0, 100_000, 100_300, 200_000, 300_000)):
+            write_picture(pictures / f"{1_700_000_000_000_000 + micros}.png", [], [])
+        ended_well(track("live", "--arena", self.arena, "--camera", pictures, "--port", "0",
+                         "--record", self.copy / "x.mkv"))
+        rows = (self.copy / "x.times.csv").read_text().splitlines()
+        self.assertEqual(rows, ["frame,time_s", "0,0.000000", "1,0.100000", "2,0.200000", "3,0.300000"])
+
+    def test_a_recording_without_a_frame_leaves_no_file(self):
+        def no_room():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))
+        run = track("live", "--arena", self.arena, "--camera", self.root / "ceiling.board", "--port", "0",
+                    "--record", self.copy / "x.mkv", restore_signals=False,  # Python ignores SIGXFSZ
+                    preexec_fn=no_room)
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertIn("x.mkv: cannot be written: File too large", run.stderr)
+        self.assertEqual(list(self.copy.glob("x.*")), [])
+
+    def test_a_place_of_another_lens_is_not_used(self):
+        self.replace("ceiling.camera.toml", 'made = "2026', 'made = "2036')
+        run = ended_well(track("live", "--arena", self.arena, "--camera", self.root / "rvr1.spin.avi", "--port", "0"))
+        self.assertRegex(run.stderr, r"note: .*ceiling\.place\.toml: .*another calibration than ceiling\.camera\.toml")
 
 
 def cells_of_tag(folder, tag):
@@ -260,6 +286,23 @@ class Arenas(Laboratory):
         without_date = lambda text: [line for line in text.splitlines() if "made" not in line]
         self.assertEqual(without_date(before), without_date(after))
 
+    def test_a_film_in_chapters_counts_as_long_as_another(self):
+        pictures = pathlib.Path(tempfile.mkdtemp(dir=self.copy.parent))
+        self.addCleanup(shutil.rmtree, pictures)
+        # A sheet that someone carries through the picture for a second.
+        cells = cells_of_tag(pictures, 100)
+        for name, places, count in (("1", [(90, 60), (290, 60)], 25), ("2", [(90, 60)], 180)):
+            folder = pictures / name
+            folder.mkdir()
+            write_picture(folder / "0.png", cells, places)
+            for number in range(1, count):
+                (folder / f"{number}.png").symlink_to("0.png")
+            ended_well(track("record", folder, pictures / f"{name}.mkv", "--rate", "25"))
+            shutil.rmtree(folder)
+        for other in (*pictures.glob("*.csv"), *pictures.glob("*.svg")):
+            other.unlink()
+        self.refused(1, ["calibrate", "arena", pictures, "--arena", self.arena], "E_REF_TAGS", "seen: 100", "missing: 101")
+
     def test_another_size(self):
         for old, new in (("width = 960", "width = 1280"), ("height = 540", "height = 720"),
                          ("cx = ", "cx = 640 #"), ("cy = ", "cy = 360 #")):
@@ -299,6 +342,11 @@ class Robots(Laboratory):
     def test_a_tag_that_is_never_seen(self):
         self.replace("arena.toml", "tag = 1\n", "tag = 7\n")
         self.refused(1, self.calibrate(), "E_ROBOT_MISSING", "tag 7")
+
+    def test_a_place_of_another_lens(self):
+        self.replace("ceiling.camera.toml", 'made = "2026', 'made = "2036')
+        self.refused(1, self.calibrate(), "E_CALIB_QUALITY", "ceiling.place.toml",
+                     "was found with another calibration than ceiling.camera.toml")
 
     def test_a_tag_outside_of_the_body(self):
         self.refused(1, [*self.calibrate(), "--kind", "epuck"], "E_SPIN_QUALITY",

@@ -24,8 +24,8 @@ namespace {
 
 /// Number of pictures for the medians; more do not improve them.
 constexpr int kLooks = 20;
-/// The pictures of a video span at least this many frames, so that a passing hand does not affect
-/// the medians.
+/// The pictures of a video span this many frames, if it has as many, so that a passing hand does
+/// not affect the medians.
 constexpr std::int64_t kFrames = 200;
 
 struct ArenaArguments {
@@ -50,8 +50,9 @@ Expected<std::vector<std::vector<TagLook>>> looks_of(const ArenaArguments& argum
     const auto fits =
         check_picture_size(camera.model_file, calibrated, info.size, info.oddities, source.word);
     if (!fits) return Unexpected(fits.error());
-    const std::int64_t known = std::min(info.expected_frames, kFrames);
-    const std::int64_t every = source.is_video ? std::max<std::int64_t>(1, known / kLooks) : 1;
+    const std::int64_t span =
+        info.expected_frames > 0 ? std::min(info.expected_frames, kFrames) : kFrames;
+    const std::int64_t every = source.is_video ? std::max<std::int64_t>(1, span / kLooks) : 1;
     if (frames.frame().number % every != 0) return true;
     if (looks.empty() && is_mirrored(*detector, frames.frame().gray)) {
       return Unexpected(error_of(IssueCode::ReferenceTags, kMirroredAdvice, source.word));

@@ -109,6 +109,8 @@ ExitCode run(const RobotArguments& arguments, Output& output) {
   if (!rig) return fail_all(output, rig.error());
   const auto camera = camera_of(*rig, arguments.camera);
   if (!camera) return fail_all(output, {camera.error()});
+  if (const auto misfits = misfits_of_place(*rig, *camera); !misfits.empty())
+    return fail_all(output, misfits);
   const auto robot = robot_of(*rig, arguments.robot);
   if (!robot) return fail_all(output, {robot.error()});
   if (robot->offset_file.empty() && arguments.file.empty()) {

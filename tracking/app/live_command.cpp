@@ -18,6 +18,7 @@
 #include "tracking/live/live_pages.h"
 #include "tracking/live/live_tracker.h"
 #include "tracking/live/newest_frame.h"
+#include "tracking/rig/issue.h"
 #include "tracking/rig/rig_file.h"
 #include "tracking/video/video_writer.h"
 
@@ -73,25 +74,31 @@ class LiveRecording {
     if (info.frame_rate > 0) options.frame_rate = info.frame_rate;
     auto writer = VideoWriter::open(file, info.size, options);
     if (!writer) return Unexpected(writer.error());
-    return LiveRecording(std::move(*writer), Sidecar(file, info.is_live));
+    return LiveRecording(file, std::move(*writer), Sidecar(file, info.is_live));
   }
 
   Expected<void> add(FrameSource& source, double time_s) {
     if (!first_s_) first_s_ = time_s;
+    if (!times_.is_later(time_s - *first_s_)) return {};
     auto written = writer_.write(source.color(), time_s - *first_s_);
     if (!written) return written;
     return times_.add(frames_++, time_s - *first_s_, time_s);
   }
   Expected<void> finish() {
     auto finished = writer_.finish();
+    if (frames_ == 0) {
+      remove_recording(file_);
+      return Unexpected(error_of(IssueCode::VideoUnreadable, "no frame came", file_));
+    }
     if (!finished) return finished;
     return times_.finish();
   }
 
  private:
-  LiveRecording(VideoWriter writer, Sidecar times)
-      : writer_(std::move(writer)), times_(std::move(times)) {}
+  LiveRecording(std::string file, VideoWriter writer, Sidecar times)
+      : file_(std::move(file)), writer_(std::move(writer)), times_(std::move(times)) {}
 
+  std::string file_;
   VideoWriter writer_;
   Sidecar times_;
   std::int64_t frames_ = 0;
@@ -163,6 +170,17 @@ ExitCode live(const LiveWords& words, Output& output) {
   if (!rig) return fail_all(output, rig.error());
   const auto camera = camera_of(*rig, words.view, "--view");
   if (!camera) return failed(camera.error());
+  // The preview shows pictures without a place, too, but positions from a wrong one would mislead.
+  for (const Error& misfit : misfits_of_place(*rig, *camera)) {
+    print_note(output, "note: " + to_string(misfit) + "; until then no positions are shown");
+    rig->places.erase(camera->place_file);
+  }
+  std::optional<BoardWatch> board;
+  if (!words.board.empty()) {
+    const auto parsed = parse_board(words.board);
+    if (!parsed) return failed(parsed.error());
+    board.emplace(*parsed);
+  }
   LiveScenery scenery;
   if (!words.mission.empty()) {
     auto mission = find_mission(words.mission, "");
@@ -187,12 +205,6 @@ ExitCode live(const LiveWords& words, Output& output) {
     recording = std::make_unique<LiveRecording>(std::move(*opened));
   }
   if (!output.quiet) output.err << "Preview: " << (*pages)->address() << std::endl;
-  std::optional<BoardWatch> board;
-  if (!words.board.empty()) {
-    const auto parsed = parse_board(words.board);
-    if (!parsed) return failed(parsed.error());
-    board.emplace(*parsed);
-  }
   Watched watched =
       watch(**source, *tracker, board ? &*board : nullptr, **pages, recording.get(), output);
   if (recording != nullptr) {

@@ -7,6 +7,7 @@
 #include "base/id.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
+#include "robot/runtime/run_record.h"
 #include "sim/engine/fitting.h"
 #include "sim/files/profile_file.h"
 #include "tracking/app/commands.h"
@@ -29,15 +30,23 @@ struct ProfileArguments {
   std::string file;
 };
 
+/// The head of a robot's log, and the RUN of the command line that has it.
+struct NamedLog {
+  std::string word;
+  LogHead head;
+};
+
 /// The robots of the runs that are used, and the reasons why other runs are not.
 struct Collected {
   std::vector<Robot> models = {};  ///< of the missions, each once
   std::vector<MeasuredRobot> robots;
+  std::vector<NamedLog> logs;  ///< of `robots`
   std::vector<std::string> left_out;
 };
 
 /// A run with its current results.
 struct KnownRun {
+  std::string word;  ///< of the command line
   std::string name;
   Verdict verdict = Verdict::Valid;
   AnalysedRun run;
@@ -56,7 +65,7 @@ OrRefusal<KnownRun> run_of_store(const ProfileArguments& arguments, const std::s
   if (!run) return tl::unexpected(std::move(run.error()));
   const VerdictOverride* by_person = overriding(kept->overrides);
   const Verdict verdict = by_person == nullptr ? run->scored.verdict : by_person->verdict;
-  return KnownRun{word + " " + kept->rows.name, verdict, std::move(*run)};
+  return KnownRun{word, word + " " + kept->rows.name, verdict, std::move(*run)};
 }
 
 /// Analyses the film of a run log in the same way as `track score`.
@@ -65,11 +74,12 @@ OrRefusal<KnownRun> run_of_log(const ProfileArguments& arguments, const std::str
   ScoreArguments score;
   score.run = word;
   score.arena = arguments.arena;
+  score.store = arguments.store;
   auto plan = plan_run(score);
   if (!plan) return tl::unexpected(std::move(plan.error()));
   auto run = watch_run(*plan, output);
   if (!run) return tl::unexpected(std::move(run.error()));
-  return KnownRun{run->log.name, run->scored.verdict, std::move(*run)};
+  return KnownRun{word, run->log.name, run->scored.verdict, std::move(*run)};
 }
 
 void add_run(const KnownRun& run, Collected& collected) {
@@ -85,6 +95,7 @@ void add_run(const KnownRun& run, Collected& collected) {
   for (const RobotFinding& robot : run.run.findings().robots) {
     if (robot.reality != nullptr) {
       collected.robots.push_back({run.name, robot.tracked->name, *robot.reality});
+      collected.logs.push_back({run.word, robot.log->record.head});
     } else {
       without.push_back(robot.tracked->name);
     }
@@ -159,19 +170,13 @@ ExitCode write(const ProfileArguments& arguments, const LabProfile& profile,
   return ExitCode::Done;
 }
 
-/// A run counts only once; in a store, a run that was scored again may have another number.
-std::optional<std::string> same_run(const std::vector<MeasuredRobot>& robots) {
-  for (std::size_t i = 0; i < robots.size(); ++i) {
+/// A run counts only once; it may be in the store and have a run log, or have two numbers.
+std::optional<std::string> same_run(const std::vector<NamedLog>& logs) {
+  for (std::size_t i = 0; i < logs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const auto is_same = [&](const MeasuredRobot& a, const MeasuredRobot& b) {
-        return a.run != b.run && a.robot == b.robot && !a.reality.delays_s.empty() &&
-               a.reality.delays_s == b.reality.delays_s &&
-               a.reality.slip.turn.gain == b.reality.slip.turn.gain;
-      };
-      if (is_same(robots[i], robots[j])) {
-        return robots[j].run + " and " + robots[i].run +
-               " have the same figures, so they are one run; name it once";
-      }
+      if (logs[i].head != logs[j].head) continue;
+      return logs[j].word + " and " + logs[i].word + " have the same log of " + logs[i].head.robot +
+             ", so they are one run; name it once";
     }
   }
   return std::nullopt;
@@ -227,7 +232,7 @@ ExitCode run(const ProfileArguments& arguments, Output& output) {
     if (!known) return fail(output, known.error());
     add_run(*known, collected);
   }
-  if (const auto flaw = same_run(collected.robots))
+  if (const auto flaw = same_run(collected.logs))
     return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *flaw, ""});
   const auto base = base_of(arguments, collected);
   if (!base) return fail(output, ExitCode::Usage, base.error());

@@ -110,7 +110,7 @@ ExitCode record(const RecordWords& words, Output& output) {
   Expected<void> done = recording.run(output);
   recording.clear_line(output);
   if (recording.frames() == 0) {
-    recording.remove(words.file);
+    remove_recording(words.file);
     if (done) done = Unexpected(error_of(IssueCode::VideoUnreadable, "no frame came", info.name));
     return failed(done.error());
   }

@@ -36,13 +36,24 @@ Expected<void> check_recording_name(const std::string& file) {
   return {};
 }
 
+void remove_recording(const std::string& video) {
+  std::error_code ignored;
+  for (const std::string& name : {video, sidecar_name(video), sidecar_name(video) + ".part"})
+    std::filesystem::remove(name, ignored);
+}
+
 Sidecar::Sidecar(const std::string& video, bool has_clock)
     : file_(sidecar_name(video)), has_clock_(has_clock) {
   out_.open(file_ + ".part", std::ios::binary | std::ios::trunc);
   out_ << (has_clock ? "frame,time_s,clock_s\n" : "frame,time_s\n") << std::flush;
 }
 
+bool Sidecar::is_later(double time_s) const {
+  return !last_ms_ || std::llround(time_s * 1000) > *last_ms_;
+}
+
 Expected<void> Sidecar::add(std::int64_t frame, double time_s, double clock_s) {
+  last_ms_ = std::llround(time_s * 1000);
   out_ << fmt::format("{},{:.6f}", frame, time_s);
   if (has_clock_) out_ << fmt::format(",{:.6f}", clock_s);
   out_ << '\n' << std::flush;
@@ -76,12 +87,6 @@ Expected<void> Recording::run(Output& output) {
 
 void Recording::clear_line(Output& output) const {
   if (shown_) output.err << kClearLine << std::flush;
-}
-
-void Recording::remove(const std::string& file) const {
-  std::error_code ignored;
-  for (const std::string& name : {file, sidecar_.file(), sidecar_.file() + ".part"})
-    std::filesystem::remove(name, ignored);
 }
 
 std::string Recording::summary() const {
@@ -123,14 +128,11 @@ Expected<double> Recording::time_of(const Frame& frame) {
 }
 
 Expected<void> Recording::keep(double time, double clock) {
-  // Matroska has a resolution of milliseconds. Pictures that a network delayed may arrive together.
-  const std::int64_t ms = std::llround(time * 1000);
-  if (frames_ > 0 && ms <= last_ms_) {
+  if (!sidecar_.is_later(time)) {
     ++too_close_;
     return {};
   }
   if (auto written = writer_.write(source_.color(), time); !written) return written;
-  last_ms_ = ms;
   last_s_ = time;
   return sidecar_.add(frames_++, time, clock);
 }

@@ -17,6 +17,9 @@ namespace swarmsmith {
 /// BadInput for a name that does not end in .mkv, and for an existing file.
 Expected<void> check_recording_name(const std::string& file);
 
+/// Removes a recording that has no frame, with its frame times.
+void remove_recording(const std::string& video);
+
 /// Writes the frame times beside the video. Columns: frame, time_s since the first frame, and for a
 /// camera clock_s, the time on its own clock. The file gets its name only when the video is
 /// complete, because after a crash its rows may not agree with the frames on the disk, and the
@@ -26,6 +29,9 @@ class Sidecar {
   Sidecar(const std::string& video, bool has_clock);
 
   const std::string& file() const { return file_; }
+  /// Whether a frame is later than the last one in the milliseconds of Matroska; only then it can
+  /// be recorded. Pictures that a network delayed may arrive together.
+  bool is_later(double time_s) const;
   Expected<void> add(std::int64_t frame, double time_s, double clock_s);
   Expected<void> finish();
 
@@ -33,6 +39,7 @@ class Sidecar {
   std::string file_;
   bool has_clock_;
   std::ofstream out_;
+  std::optional<std::int64_t> last_ms_;
 };
 
 struct RecordingOptions {
@@ -53,8 +60,6 @@ class Recording {
   Expected<void> run(Output& output);
   /// Clears the line of progress.
   void clear_line(Output& output) const;
-  /// Removes a recording that has no frame.
-  void remove(const std::string& file) const;
 
   std::int64_t frames() const { return frames_; }
   std::int64_t dropped() const { return source_.damaged_frames() + too_close_; }
@@ -82,7 +87,6 @@ class Recording {
   bool shown_ = false;
   std::int64_t frames_ = 0;
   std::int64_t too_close_ = 0;
-  std::int64_t last_ms_ = 0;
   double last_s_ = 0;
 };
 

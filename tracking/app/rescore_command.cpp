@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "base/id.h"
 #include "base/plain_text.h"
@@ -39,6 +40,9 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   if (log.videos.empty()) log.videos = before.videos;
   if (log.mission.name.empty()) log.mission = before.mission;
   if (log.notes.empty()) log.notes = before.notes;
+  if (log.recorded.empty()) log.recorded = before.recorded;
+  if (log.layout.source == RunLayout::Source::None && log.mission.name == before.mission.name)
+    log.layout = before.layout;
   if (!log.start.time_s && log.start.sync == RunStart::Sync::None) log.start = before.start;
   if (log.videos.size() != before.videos.size()) {
     return refused(error_of(IssueCode::Config,
@@ -67,17 +71,18 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
 }
 
 /// Reads the robots' logs that a corrected run log names; if a file is missing, the stored log is
-/// kept.
+/// kept if it still belongs to the run.
 void read_logs_again(const RunLog& log, const std::string& file,
                      const std::optional<RanMachine>& machine, Observations& observations) {
   RobotFiles files = read_robot_files(log, std::filesystem::path(file).parent_path(), machine);
-  std::erase_if(files.issues, [&](const Issue& issue) {
-    if (issue.code != IssueCode::LogUnreadable) return false;
+  for (const Issue& issue : std::exchange(files.issues, {})) {
     const auto stored = std::ranges::find(observations.logs, issue.robot, &RobotLog::robot);
-    if (stored == observations.logs.end()) return false;
-    files.logs.push_back(std::move(*stored));
-    return true;
-  });
+    if (issue.code != IssueCode::LogUnreadable || stored == observations.logs.end()) {
+      files.issues.push_back(issue);
+    } else {
+      take_log(std::move(*stored), log, machine, files);
+    }
+  }
   observations.logs = std::move(files.logs);
   std::erase_if(observations.issues, [](const Issue& issue) {
     return issue.code == IssueCode::LogUnreadable || issue.code == IssueCode::LogForeign;
@@ -135,6 +140,8 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRow
     if (!ran.design.empty() || !ran.candidate.empty()) {
       const auto control = control_of(store_word(arguments.store), ran);
       if (!control) return tl::unexpected(control.error());
+      if (auto fits = check_mission(*control, ran, store_word(arguments.store)); !fits)
+        return tl::unexpected(std::move(fits.error()));
       candidate = control->candidate;
       machine = control->machine;
     }
@@ -195,7 +202,9 @@ ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word,
   if (!store) return fail(output, store.error());
   // With the start that it had, it is no more doubtful than before.
   if (again->rows.key != kept->rows.key) {
-    if (const auto other = check_same_film(again->run, kept->store, kept->id, output); !other)
+    if (const auto other =
+            check_same_film(again->run, again->rows.key, kept->store, kept->id, output);
+        !other)
       return fail(output, other.error());
   }
   const auto written = (*store)->rescore_real_run(kept->id, again->rows);

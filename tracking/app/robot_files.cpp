@@ -21,16 +21,20 @@ RobotFiles read_robot_files(const RunLog& log, const std::filesystem::path& fold
            note.robot});
       continue;
     }
-    RobotLog read{note.robot, note.log, std::move(*record)};
-    auto misfit = misfit_of(read, log, machine);
-    if (!misfit && !files.logs.empty()) misfit = other_machine(read, files.logs.front());
-    if (misfit) {
-      files.issues.push_back(std::move(*misfit));
-      continue;
-    }
-    files.logs.push_back(std::move(read));
+    take_log({note.robot, note.log, std::move(*record)}, log, machine, files);
   }
   return files;
+}
+
+void take_log(RobotLog log, const RunLog& run, const std::optional<RanMachine>& machine,
+              RobotFiles& files) {
+  auto misfit = misfit_of(log, run, machine);
+  if (!misfit && !files.logs.empty()) misfit = other_machine(log, files.logs.front());
+  if (misfit) {
+    files.issues.push_back(std::move(*misfit));
+  } else {
+    files.logs.push_back(std::move(log));
+  }
 }
 
 }  // namespace swarmsmith

@@ -22,4 +22,9 @@ struct RobotFiles {
 RobotFiles read_robot_files(const RunLog& log, const std::filesystem::path& folder,
                             const std::optional<RanMachine>& machine);
 
+/// Adds a log to `files`, or its issue if it is not of this run or of another machine than the
+/// first one.
+void take_log(RobotLog log, const RunLog& run, const std::optional<RanMachine>& machine,
+              RobotFiles& files);
+
 }  // namespace swarmsmith

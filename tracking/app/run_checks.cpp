@@ -77,6 +77,16 @@ std::vector<Error> settle_names(RunLog& log, const Rig& rig) {
       errors.push_back(unknown("camera", camera, cameras, rig.file));
     }
   }
+  const bool is_floor_tag = std::ranges::find(rig.references, log.start.sync_tag,
+                                              &ReferenceTag::tag) != rig.references.end();
+  if (log.start.sync != RunStart::Sync::None && is_floor_tag) {
+    errors.push_back(error_of(IssueCode::Config,
+                              "the run cannot begin with tag " +
+                                  std::to_string(log.start.sync_tag) +
+                                  " (`sync`), which is a floor tag of the arena; use a tag with "
+                                  "another number, or give `start`",
+                              rig.file));
+  }
   for (const HandPoint& point : log.points) {
     check_robot(point.robot, "[[point]]", log, rig, errors);
     if (point.camera.empty() ? log.videos.size() > 1

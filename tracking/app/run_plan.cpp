@@ -119,14 +119,8 @@ OrRefusal<std::optional<RanMachine>> settle_control(const ScoreArguments& argume
     plan.candidate = control->candidate;
     machine = control->machine;
     if (log.mission.name.empty()) log.mission = control->mission;
-    if (log.mission.name != control->mission.name) {
-      return refused(
-          ExitCode::NoSuchId,
-          {ErrorKind::NotFound,
-           to_string(plan.candidate) + " was designed for mission \"" + control->mission.name +
-               "\", but the run is of mission \"" + log.mission.name + "\"",
-           plan.store});
-    }
+    if (auto fits = check_mission(*control, log, plan.store); !fits)
+      return tl::unexpected(std::move(fits.error()));
   }
   if (log.mission.name.empty()) {
     return refused(wrong_option(

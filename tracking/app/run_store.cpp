@@ -126,6 +126,17 @@ OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log) {
   return control;
 }
 
+OrRefusal<void> check_mission(const RanControl& control, const RunLog& log,
+                              const std::string& store) {
+  if (log.mission.name == control.mission.name) return {};
+  return refused(
+      ExitCode::NoSuchId,
+      {ErrorKind::NotFound,
+       to_string(control.candidate) + " was designed for mission \"" + control.mission.name +
+           "\", but the run is of mission \"" + log.mission.name + "\"",
+       store});
+}
+
 OrRefusal<void> check_source(const RunLog& log, const std::string& store) {
   const std::vector<std::string> built_in = profile_names();
   bool is_profile = std::ranges::find(built_in, log.source) != built_in.end();

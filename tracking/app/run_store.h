@@ -24,6 +24,10 @@ struct RanControl {
 /// Exit code 4 if there is none; 3 if the store cannot be read.
 OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log);
 
+/// Refuses control software for another mission than the log's; exit code 4.
+OrRefusal<void> check_mission(const RanControl& control, const RunLog& log,
+                              const std::string& store);
+
 /// Refuses a source of filmed runs that has the name of a simulator's profile, built in or of the
 /// store (which need not exist): their scores would look like simulated ones. Exit code 2.
 OrRefusal<void> check_source(const RunLog& log, const std::string& store);

@@ -16,6 +16,10 @@
 namespace swarmsmith {
 namespace {
 
+/// With starts that differ by less, a correction of one of them would not help: the runs differ in
+/// their cameras, or in how a store rounds their starts.
+constexpr double kSameStart_s = 0.001;
+
 /// A part of a film, on the clock of its camera.
 struct Part {
   std::string film;
@@ -65,8 +69,9 @@ std::string span_text(const Part& part) {
 
 }  // namespace
 
-OrRefusal<void> check_same_film(const AnalysedRun& run, const std::string& store,
-                                std::optional<RealRunId> own, Output& output) {
+OrRefusal<void> check_same_film(const AnalysedRun& run, const std::string& key,
+                                const std::string& store, std::optional<RealRunId> own,
+                                Output& output) {
   std::error_code trouble;
   if (!std::filesystem::exists(store, trouble)) return {};
   const auto reader = StoreReader::open(store);
@@ -77,7 +82,7 @@ OrRefusal<void> check_same_film(const AnalysedRun& run, const std::string& store
     const auto mine = part_of(camera.sha256, run.observations, run.starts_s, duration_of(run.log));
     for (const std::int64_t other : *others) {
       const auto rows = (*reader)->real_run(RealRunId{other});
-      if (!rows) continue;
+      if (!rows || rows->key == key) continue;
       const auto stored = stored_run(*rows);
       // A run that cannot be read again cannot be compared.
       if (!stored || !mine) continue;
@@ -85,8 +90,7 @@ OrRefusal<void> check_same_film(const AnalysedRun& run, const std::string& store
       if (!starts_s) continue;
       const auto its =
           part_of(camera.sha256, stored->observations, *starts_s, duration_of(stored->log));
-      // The same start is the same run, which the store knows.
-      if (!its || std::abs(its->from_s - mine->from_s) < 0.0005) continue;
+      if (!its) continue;
       const std::string word = to_string(RealRunId{other});
       if (its->from_s < mine->to_s && mine->from_s < its->to_s) {
         const std::string at = " --store " + command_word(store);
@@ -94,6 +98,10 @@ OrRefusal<void> check_same_film(const AnalysedRun& run, const std::string& store
             "If the start of {} is wrong, correct it: `swarmsmith track rescore {} "
             "--start \"{:.3f} s\"{}`",
             word, word, run.starts_s.front(), at);
+        if (std::abs(its->from_s - mine->from_s) < kSameStart_s) {
+          advice = fmt::format(
+              "Score it with the start and the videos of {}, or into another store", word);
+        }
         if (own) {
           advice = fmt::format(
               "Leave one of them out of the statistics: `swarmsmith track override "

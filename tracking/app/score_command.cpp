@@ -21,11 +21,12 @@ namespace {
 OrRefusal<RealRunWritten> keep(const RunPlan& plan, const AnalysedRun& run, Output& output) {
   auto store = open_store(plan.store, plan.if_missing);
   if (!store) return tl::unexpected(std::move(store.error()));
+  const RealRunRows rows = run.rows(plan.arena_text, plan.candidate);
   if (!(*store)->is_new()) {
-    if (auto other = check_same_film(run, plan.store, std::nullopt, output); !other)
+    if (auto other = check_same_film(run, rows.key, plan.store, std::nullopt, output); !other)
       return tl::unexpected(std::move(other.error()));
   }
-  auto written = (*store)->add_real_run(run.rows(plan.arena_text, plan.candidate));
+  auto written = (*store)->add_real_run(rows);
   if (written) return *written;
   return refused(written.error().kind == ErrorKind::NotFound ? ExitCode::NoSuchId : ExitCode::Store,
                  written.error());

@@ -132,6 +132,12 @@ std::vector<Issue> doubts_of_place(const Rig& rig, const CameraSetup& camera) {
   return doubts;
 }
 
+std::vector<Error> misfits_of_place(const Rig& rig, const CameraSetup& camera) {
+  std::vector<Error> errors;
+  check_place(rig, camera, errors);
+  return errors;
+}
+
 std::vector<Error> misfits(const Rig& rig) {
   std::vector<Error> errors;
   for (const CameraSetup& camera : rig.cameras)

@@ -40,6 +40,8 @@ OrComplaints<Rig> parse_rig(std::string_view text, const std::filesystem::path& 
 /// one to repeat: a place that was solved with another lens calibration, or an offset for another
 /// robot, tag, edge or height. A tag that is not below a camera is an E_CONFIG.
 std::vector<Error> misfits(const Rig& rig);
+/// The same of the place of one camera.
+std::vector<Error> misfits_of_place(const Rig& rig, const CameraSetup& camera);
 
 /// Reasons to doubt the place of a camera, although it can be used. E_EXTRINSICS: the place does
 /// not fit the floor tags in its own file, so the file was edited. W_SURVEY_CHANGED: the arena file

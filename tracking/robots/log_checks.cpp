@@ -65,11 +65,14 @@ void ask_treads(const std::string& robot, const Reality& reality, std::vector<Ch
   checks.push_back(latency.seconds ? answered(kLatency, robot, outcome(is_late(latency)),
                                               1000 * *latency.seconds, 1000 * kLateTreads_s)
                                    : not_asked(kLatency, robot, latency.reason));
+  // Beyond the limit by less than the error, a check passes.
+  checks.back().limit_is_least = false;
   const Gain& way = reality.slip.way;
   checks.push_back(way.gain ? answered(kWay, robot,
                                        way.is_against ? Outcome::Failed : outcome(is_off(way)),
                                        100 * std::fabs(*way.gain - 1), 100 * kWayOff)
                             : not_asked(kWay, robot, way.reason));
+  checks.back().limit_is_least = false;
 }
 
 /// All checks of one robot that has a log.

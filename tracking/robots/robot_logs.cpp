@@ -14,6 +14,9 @@ namespace {
 /// moment between two pictures when a speed begins to change, are not known more precisely.
 constexpr double kEarly_s = 0.05;
 
+/// A node that was stopped for longer is lost; cycles are late by far less.
+constexpr double kFarOff_s = 60;
+
 Verdict verdict_of(RunVerdict verdict) {
   return *verdict_from_name(name_of(verdict));
 }
@@ -193,6 +196,14 @@ class Judge {
   std::vector<ToldAndSeen> told_;
 };
 
+/// Whether a row's times are of the run, and its clock agrees with its cycle; later computations
+/// take as much memory and time as these times say.
+bool is_within(const LogRow& row, const LogHead& head, const RunLog& run) {
+  const double end_s = std::max(head.seconds, run.mission.cycles * kControlPeriod_s);
+  return row.sensed.time_s >= 0 && row.sensed.time_s <= end_s + kFarOff_s &&
+         std::fabs(row.clock_s - head.start_clock_s - row.sensed.time_s) <= kFarOff_s;
+}
+
 Issue foreign_issue(const RobotLog& log, const std::string& what) {
   return {
       IssueCode::LogForeign,
@@ -233,6 +244,13 @@ std::optional<Issue> misfit_of(const RobotLog& log, const RunLog& run,
     if (row.cycle > before.cycle && row.clock_s > before.clock_s) continue;
     return foreign(fmt::format("has cycle {} after cycle {}, at times that do not increase",
                                row.cycle, before.cycle));
+  }
+  for (const LogRow& row : log.record.rows) {
+    if (is_within(row, head, run)) continue;
+    return foreign(fmt::format(
+        "has cycle {} at a time that is not of this run: {:g} s after the start, {:g} s by its "
+        "clock",
+        row.cycle, row.sensed.time_s, row.clock_s - head.start_clock_s));
   }
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 """Each row of the table of bad input (tracking facts, section 10) with a real file: its message,
 its exit code, and that nothing, or a run marked INVALID, is in the store."""
 import fcntl
+import hashlib
 import json
 import os
 import re
@@ -375,6 +376,19 @@ class BadInput(unittest.TestCase):
             self.assertEqual(measured.returncode, said.returncode, measured.stderr)
             self.assertEqual(json.loads(measured.stdout)["score"], json.loads(said.stdout)["score"])
 
+    def test_patches_that_were_measured_are_kept_for_a_log_without_patches(self):
+        log = LAB.film("free3", mission="color_selection", seed=3)
+        text = re.sub(r"\n\[\[patch\]\].*", "", log.read_text(), flags=re.S)
+        silent = log.with_name("silent_free3.toml")
+        silent.write_text(re.sub(r"^(recorded|name) = .*\n", "", text, flags=re.M).replace("start = ", 'name = "free3"\nstart = '))
+        measured = self.score(silent, "--patches", "measured", "--recorded", "2026-11-21", "--json")
+        self.assertIn(measured.returncode, (0, 6), measured.stderr)
+        again = call(TRACK, "rescore", "r1", "--store", self.store, "--run", silent, "--json")
+        self.assertEqual(again.returncode, measured.returncode, again.stderr)
+        self.assertEqual(json.loads(again.stdout)["score"], json.loads(measured.stdout)["score"])
+        with sqlite3.connect(f"file:{self.store}?mode=ro", uri=True) as base:
+            self.assertEqual(base.execute("SELECT recorded FROM v_real_runs").fetchall(), [("2026-11-21",)])
+
     def test_settings_that_cannot_be(self):
         for number, (before, after, wanted) in enumerate((
                 ("x = 1.0430", "x = nan", r"`x` must be from -100 to 100, not nan"),
@@ -417,6 +431,12 @@ class BadInput(unittest.TestCase):
         log = self.changed_log(LAB.film("good"), ('start = "1.2 s"\n', ""))
         self.assert_refused(self.score(log), "E_CONFIG", "the start of the run is unknown", exit_code=2)
 
+    def test_a_floor_tag_that_shall_start_the_run(self):
+        log = self.changed_log(LAB.film("good"), ('start = "1.2 s"', 'sync = { tag = 100, when = "hidden" }'))
+        self.assert_refused(self.score(log), "E_CONFIG", "tag 100 .*floor tag", exit_code=2)
+        done = self.score(LAB.film("good"), "--sync-shown", "101")
+        self.assert_refused(done, "E_CONFIG", "tag 101 .*floor tag", exit_code=2)
+
     def test_same_run_twice(self):
         first = self.score(LAB.film("good"))
         self.assertEqual(first.returncode, 0, first.stderr)
@@ -453,6 +473,37 @@ class BadInput(unittest.TestCase):
         several = call(TRACK, "rescore", "r1", "r1", "--store", self.store, "--start", "1.2")
         self.assertEqual(several.returncode, 2, several.stdout)
         self.assertIn("name one RUN", several.stderr)
+
+    def test_same_film_with_almost_the_same_start_is_the_same_run(self):
+        good = LAB.film("good")
+        self.assertEqual(self.score(good, "--start", "1.2004 s").returncode, 0)
+        other = self.score(good, "--start", "1.2006 s")
+        self.assertEqual(other.returncode, 3, other.stdout + other.stderr)
+        self.assertIn("it would count twice", other.stderr)
+        self.assertEqual(len(runs_in(self.store)), 1)
+
+    def test_same_film_without_its_second_camera_is_the_same_run(self):
+        good = LAB.film("good")
+        text = (LAB.lab / "arena.toml").read_text()
+        camera = re.search(r"\[\[camera\]\].*?(?=\[\[)", text, re.S)[0]
+        arena = LAB.copy_of_lab(f"{self.folder.name}/lab", arena_toml=[
+            (camera, camera + camera.replace('"ceiling', '"beside'))])
+        lens = (arena.parent / "ceiling.camera.toml").read_bytes()
+        (arena.parent / "beside.camera.toml").write_bytes(lens + b"# beside\n")
+        place = (arena.parent / "ceiling.place.toml").read_text()
+        (arena.parent / "beside.place.toml").write_text(place.replace(
+            hashlib.sha256(lens).hexdigest(), hashlib.sha256(lens + b"# beside\n").hexdigest()))
+        log = self.changed_log(good)
+        one = log.read_text()
+        video = re.search(r"\[\[video\]\]\n(?:.+\n)+", one)[0]
+        log.write_text(one.replace(video, video + "\n" + video.replace("ceiling", "beside")))
+        both = self.score(log, arena=arena)
+        self.assertEqual(both.returncode, 0, both.stdout + both.stderr)
+        log.write_text(one)
+        alone = self.score(log, arena=arena)
+        self.assertEqual(alone.returncode, 3, alone.stdout + alone.stderr)
+        self.assertRegex(alone.stderr, "r1 is of this film .* it would count twice.*with the start and the videos of r1")
+        self.assertEqual(len(runs_in(self.store)), 1)
 
     def test_a_film_of_two_runs_has_two(self):
         good = LAB.film("good")

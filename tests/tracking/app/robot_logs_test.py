@@ -1,13 +1,16 @@
 """Robots' own logs beside the film: read, checked, kept, judged again, and the latency that follows from both."""
 import json
+import os
+import pathlib
 import re
 import shutil
 import sqlite3
 import tomllib
 import unittest
 
-from filmed_lab import TRACK, FilmedLab, call, must
+from filmed_lab import BIN, TRACK, FilmedLab, call, must
 
+SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 LAB = None
 LATENCY_S = 0.12
 INVALID_RUN = 6
@@ -20,7 +23,7 @@ def setUpModule():
     LAB.film("run", "--robot-logs", "--latency-ms", round(1000 * LATENCY_S), seconds=12)
 
 
-class RobotLogs(unittest.TestCase):
+class Logged(unittest.TestCase):
     def setUp(self):
         """A copy of the run's texts, to be changed; the film is read where it is."""
         self.folder = LAB.folder / self._testMethodName
@@ -68,6 +71,8 @@ class RobotLogs(unittest.TestCase):
         self.assertEqual(len(texts), 1, result["issues"])
         return texts[0]
 
+
+class RobotLogs(Logged):
     def test_a_good_run_tells_the_latency_and_keeps_the_commands(self):
         result = self.score()
         self.assertNotEqual(result["verdict"], "INVALID", result["reasons"])
@@ -88,7 +93,8 @@ class RobotLogs(unittest.TestCase):
         self.assertEqual(beside[:2], (360, 360))
         self.assertLess(beside[2], 1e-9)
         # From the stored rows the same follows, without the files.
-        for file in self.folder.glob("run.rvr*"):
+        kept = {file: file.read_text() for file in self.folder.glob("run.rvr*")}
+        for file in kept:
             file.unlink()
         again = self.rescore()
         self.assertEqual(again["robots"], result["robots"])
@@ -101,6 +107,8 @@ class RobotLogs(unittest.TestCase):
         neighbours = [robot["reality"]["neighbours"] for robot in report["robots"]]
         self.assertEqual(neighbours, [robot["reality"]["neighbours"] for robot in result["robots"]])
         self.assertTrue(all(robot["there"] == robot["seen"] for robot in neighbours), neighbours)
+        for file, text in kept.items():
+            file.write_text(text)
         self.check_profile()
         text = call(TRACK, "rescore", "r1", "--store", self.store).stdout
         self.assertRegex(text, r"latency \d+ ms \+- \d+\.\d ms, from its commands to its motion")
@@ -130,6 +138,11 @@ class RobotLogs(unittest.TestCase):
             done = call(TRACK, "profile", *words, "--store", self.store)
             self.assertNotEqual(done.returncode, 0, done.stdout)
             self.assertIn(said, done.stderr)
+        # The same run by another name.
+        for runs in ((self.log, f"{self.folder}/./run.toml"), ("r1", self.log)):
+            done = call(TRACK, "profile", *runs, "--store", self.store, "--arena", LAB.lab / "arena.toml")
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            self.assertRegex(done.stderr, f"{runs[0]} and {runs[1]} have the same log of rvr1, so they are one run")
         must(TRACK, "override", "r1", "--store", self.store, "--verdict", "invalid", "--who", "A", "--reason", "seen")
         done = call(TRACK, "profile", "r1", "--store", self.store)
         self.assertEqual(done.returncode, 1)
@@ -231,6 +244,41 @@ class RobotLogs(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("rvr9", done.stderr)
         self.assertIn("E_CONFIG", done.stderr)
+
+
+class Designed(Logged):
+    """Runs of a store that has a design, d1, for aggregation."""
+
+    def setUp(self):
+        super().setUp()
+        must(BIN / "swarmsmith", "backup", SOURCE / "tests/golden/stores/schema-6.sqlite", self.store)
+
+    def with_design(self):
+        self.change("run.toml", r'\nstart = ', '\ndesign = "d1"\nstart = ')
+
+    def test_a_candidate_for_another_mission_is_refused(self):
+        self.score()
+        self.with_design()
+        self.change("run.toml", r'mission = ".*"', 'mission = "grid_exploration"')
+        done = call(TRACK, "rescore", "r1", "--store", self.store, "--run", self.log)
+        self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+        self.assertIn('was designed for mission "aggregation", but the run is of mission "grid_exploration"', done.stderr)
+        self.assertEqual(self.rows("SELECT mission, candidate FROM v_real_runs"), [("aggregation", None)])
+
+    def test_a_log_that_is_kept_must_be_of_the_design(self):
+        self.score()
+        self.with_design()
+        for file in self.folder.glob("run.rvr*"):
+            file.unlink()
+        again = self.rescore("--run", self.log, accepted=(INVALID_RUN,))
+        self.assertEqual(self.codes(again), ["E_LOG_FOREIGN"] * 3)
+
+    def test_a_profile_of_a_run_log_finds_its_design_in_the_store(self):
+        self.with_design()
+        self.change("run.toml", r'design = "d1"', 'design = "d9"')
+        done = call(TRACK, "profile", self.log, "--arena", LAB.lab / "arena.toml", "--store", self.store)
+        self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+        self.assertIn("no design d9", done.stderr)
 
 
 class Sync(unittest.TestCase):

@@ -1,6 +1,7 @@
 #include "tracking/robots/robot_logs.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/math.h"
 #include "base/rng.h"
@@ -290,6 +291,25 @@ TEST_F(RobotLogsTest, TreadsThatActLateAreSeenWhateverTheirDriverSays) {
   EXPECT_EQ(check_of(checks, "latency of the treads", "rvr2")->outcome, Check::Outcome::Passed);
 }
 
+TEST_F(RobotLogsTest, TreadsThatMayBeInTimeHaveTheLimitOfThoseThatAreLate) {
+  RobotFindings found = judged();
+  ASSERT_TRUE(found.reality.at(0).has_value());
+  found.reality[0]->latency.seconds = 0.36;
+  found.reality[0]->latency.error_s = 0.01;
+  found.reality[0]->slip.way = {.gain = 1.31, .error = 0.02};
+  Observations seen;
+  seen.logs = logs;
+  const std::vector<Check> asked = checks_of_logs(run, seen, log, found);
+  const Check* latency = check_of(asked, "latency of the treads", "rvr1");
+  ASSERT_NE(latency, nullptr);
+  EXPECT_EQ(latency->outcome, Check::Outcome::Passed);
+  EXPECT_EQ(value_text(*latency) + ", " + limit_text(*latency), "360 ms, at most 350 ms");
+  const Check* way = check_of(asked, "way of what was told", "rvr1");
+  ASSERT_NE(way, nullptr);
+  EXPECT_EQ(way->outcome, Check::Outcome::Passed);
+  EXPECT_EQ(limit_text(*way), "at most 30 % off");
+}
+
 TEST_F(RobotLogsTest, TreadsOfAnotherSpeedAreSeenWhateverTheirDriverSays) {
   for (LogRow& row : logs[0].record.rows) {
     row.command.left_mps *= 2;
@@ -371,6 +391,19 @@ TEST_F(RobotLogsTest, OfAnotherRunRobotMachineOrWorldAreForeign) {
               HasSubstr("has cycle 3 after cycle 7"));
   EXPECT_THAT(misfit([](RunRecord& record) { record.rows[9].clock_s -= 100; }),
               HasSubstr("do not increase"));
+  EXPECT_THAT(misfit([](RunRecord& record) { record.rows.back().clock_s = 1e12; }),
+              HasSubstr("has cycle 600 at a time that is not of this run"));
+  EXPECT_THAT(misfit([](RunRecord& record) {
+                record.rows.back().clock_s = std::numeric_limits<double>::infinity();
+              }),
+              HasSubstr("has cycle 600 at a time"));
+  EXPECT_THAT(misfit([](RunRecord& record) {
+                record.rows.back().sensed.time_s = 1e12;
+                record.rows.back().clock_s = 1e12 + kBegin_s;
+              }),
+              HasSubstr("has cycle 600 at a time"));
+  EXPECT_THAT(misfit([](RunRecord& record) { record.rows.front().clock_s = -1e12; }),
+              HasSubstr("has cycle 1 at a time"));
   EXPECT_FALSE(other_machine(logs[1], logs[0]));
   logs[1].record.head.machine_digest = "bb22";
   const auto other = value_of(other_machine(logs[1], logs[0]));
