@@ -261,6 +261,18 @@ TEST(Placements, MayIgnoreObstacles) {
               Not(HasSubstr("ignores_obstacles")));
 }
 
+TEST(Placements, StayAsTheyAreUnlessOneIsGiven) {
+  const auto placement = [](const std::string& arena, const std::string& training) {
+    return read(arena, "robots = 1\ninstances = { training = { " + training + " } }\n").placement;
+  };
+  const std::string square = "shape = \"square\"\nside = 4\n";
+  EXPECT_EQ(placement(square, "ignores_obstacles = true"), Placement(PlaceAnywhere{}));
+  EXPECT_EQ(placement(square, ""), Placement(PlaceAnywhere{}));
+  EXPECT_EQ(placement(square, "radius = 0.5"), Placement(PlaceInDisc{{}, 0.5}));
+  EXPECT_EQ(placement("", "ignores_obstacles = true"), Placement(PlaceInDisc{}));
+  EXPECT_EQ(placement("", "x = 0.25, radius = 0.5"), Placement(PlaceInDisc{{0.25, 0}, 0.5}));
+}
+
 TEST(Placements, ThatCannotBeAreExplained) {
   const auto wrong = [](const std::string& training, const std::string& robots = "2") {
     return complaints("shape = \"square\"\nside = 4\n",
@@ -275,6 +287,7 @@ TEST(Placements, ThatCannotBeAreExplained) {
   EXPECT_THAT(wrong("{ placement = \"rectangle\", x = 0, y = 0, width = 0.1, height = 0.1 }"),
               ElementsAre(HasSubstr("take fewer robots, or place them over a larger part")));
   EXPECT_THAT(wrong("{ placement = \"uniform\" }"), ElementsAre(HasSubstr("needs a `radius`")));
+  EXPECT_THAT(wrong("{ x = 1 }"), ElementsAre(HasSubstr("needs a `radius`")));
   EXPECT_THAT(wrong("{ placement = \"unifrm\" }"),
               ElementsAre(HasSubstr("did you mean \"uniform\"?")));
 }
