@@ -1,5 +1,8 @@
 #include "sim/files/mission_file.h"
 
+#include <string>
+#include <vector>
+
 #include "base/text/document.h"
 #include "sim/mission/polygon.h"
 #include "tests/sim/random_mission.h"
@@ -102,6 +105,29 @@ TEST(ArenaShapes, HaveTheirAreas) {
   EXPECT_NEAR(area("shape = \"circle\"\ndiameter = 2\n"), kPi, 0.01);
   EXPECT_NEAR(area("shape = \"polygon\"\ncorners = [[0, 0], [0, 2], [2, 0]]\n"), 2, 1e-12);
   EXPECT_EQ(read("").arena.walls, dodecagon_of_the_thesis().walls);
+}
+
+// Stores have the corners of all walls, whose limits are those of coordinates.
+TEST(ArenaShapes, AreRefusedWhoseTextCouldNotBeReadBack) {
+  const std::string place = "instances = { training = { placement = \"anywhere\" } }\n";
+  const std::string triangle = "shape = \"regular\"\nsides = 3\ninradius = ";
+  const std::string pentagon = "shape = \"regular\"\nsides = 5\ninradius = ";
+  for (const std::string& fits :
+       {triangle + "49.9\n", pentagon + "80\n", std::string("inradius = 99.9\n"),
+        std::string("shape = \"circle\"\ndiameter = 199.9\n")}) {
+    const MissionEntry entry{read(fits, place)};
+    EXPECT_EQ(value_of(parse_mission(mission_text(entry), "x.toml")), entry) << fits;
+  }
+  for (const std::string& too_big : {triangle + "50.1\n", pentagon + "81\n"}) {
+    EXPECT_THAT(complaints(too_big, place),
+                ElementsAre(HasSubstr("these walls have corners beyond 100 m along x or y; give a "
+                                      "smaller `inradius`")))
+        << too_big;
+  }
+  EXPECT_THAT(complaints("shape = \"square\"\nside = 200\nobstacles = [ { shape = \"polygon\", "
+                         "corners = [[-100, -100], [100, -100], [100, 100]], height = 1 } ]\n",
+                         place),
+              ElementsAre(HasSubstr("this polygon has corners beyond 100 m from its centre")));
 }
 
 TEST(ArenaShapes, WallsThatJoinAreAPolygonInEitherDirection) {
