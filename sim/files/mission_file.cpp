@@ -120,7 +120,7 @@ void read_robot(TableReader& table, const ReadingPlace& place, Mission& mission)
     mission.robot = read_robot_table(*robot, from, mission.robot);
     return;
   }
-  if (auto outline = read_outline(*robot, {0.02, 5}, nullptr)) {
+  if (auto outline = read_outline(*robot, kBodySize, nullptr)) {
     mission.robot.body.outline = std::move(*outline);
     check_with_outline(*robot, mission.robot);
   }

@@ -326,13 +326,21 @@ TEST(Robots, HaveBodiesOfAnyConvexShape) {
   EXPECT_EQ(body("shape = \"square\", side = 0.2"), Outline(BoxOutline{0.2, 0.2}));
   EXPECT_EQ(body("shape = \"box\", length = 0.3, width = 0.2"), Outline(BoxOutline{0.3, 0.2}));
   EXPECT_THAT(complaints("", "robot = { shape = \"circle\", diameter = 9 }\n"),
-              ElementsAre(HasSubstr("`diameter` must be from 0.02 to 5")));
+              ElementsAre(HasSubstr("`diameter` must be from 0.005 to 5")));
+  EXPECT_THAT(complaints("", "robot = { shape = \"circle\", diameter = 0.01 }\n"),
+              ElementsAre(HasSubstr("more than its own width of 0.01 m")));
   EXPECT_THAT(
       complaints("", "robot = { shape = \"polygon\", corners = [[0, 0], [1, 0], [0, 1]] }\n"),
       ElementsAre(HasSubstr("cannot be a robot's body: its centre of mass is [0.333333, ")));
   EXPECT_THAT(complaints("", "robot = 3\n"),
               ElementsAre(HasSubstr("`robot` must be a robot's name or file in quotes, such as "
                                     "\"epuck\", or a table; this is an integer")));
+}
+
+TEST(Robots, HaveTheSameSizesWithABodyAsWithAnOutline) {
+  const MissionEntry entry{
+      read("", "robot = { body = { shape = \"circle\", diameter = 0.018 } }\n")};
+  EXPECT_EQ(value_of(parse_mission(mission_text(entry), "x.toml")), entry);
 }
 
 }  // namespace
