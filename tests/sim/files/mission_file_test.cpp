@@ -343,5 +343,24 @@ TEST(Robots, HaveTheSameSizesWithABodyAsWithAnOutline) {
   EXPECT_EQ(value_of(parse_mission(mission_text(entry), "x.toml")), entry);
 }
 
+// Box2D takes a contact's friction from those of the two surfaces, and 0 times any number is 0.
+TEST(Robots, ThatSlideOnEachOtherAloneAreDiscsWithoutObjects) {
+  const auto robot = [](const std::string& outline, const std::string& friction) {
+    return "robots = 1\nrobot = { name = \"mine\", body = { " + outline +
+           ", robot_friction = " + friction + ", wall_friction = 0.5 } }\n";
+  };
+  const std::string disc = "shape = \"circle\", diameter = 0.1";
+  const std::string box = "shape = \"square\", side = 0.1";
+  const std::string object =
+      "objects = [ { shape = \"box\", x = 1, y = 0, length = 0.1, width = 0.1, mass = 1, friction "
+      "= 1 } ]\n";
+  const auto refused = ElementsAre(HasSubstr("`robot_friction` must be at least 0.000001"));
+  EXPECT_THAT(complaints("", robot(disc, "0")), IsEmpty());
+  EXPECT_THAT(complaints(object, robot(disc, "0")), refused);
+  EXPECT_THAT(complaints("", robot(box, "0")), refused);
+  EXPECT_THAT(complaints("", robot(box, "1e-60")), refused);
+  EXPECT_THAT(complaints("", robot(box, "0.01")), IsEmpty());
+}
+
 }  // namespace
 }  // namespace swarmsmith
