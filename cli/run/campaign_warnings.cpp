@@ -1,6 +1,9 @@
 #include "cli/run/campaign_warnings.h"
 
 #include <algorithm>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "base/suggestion.h"
 #include "base/text/json.h"
@@ -8,6 +11,7 @@
 #include "sim/engine/fitting.h"
 #include "sim/engine/kept_constants.h"
 #include "sim/mission/footprint.h"
+#include "sim/mission/score.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -78,6 +82,15 @@ void warn_about_low_walls(const Mission& mission, std::vector<std::string>& warn
                      " m; simulated rays hit walls of any height");
 }
 
+void warn_about_objects(const Mission& mission, std::vector<std::string>& warnings) {
+  const auto* formula = std::get_if<Formula>(&mission.rule);
+  const bool scores_objects = std::holds_alternative<ObjectsOn>(mission.rule) ||
+                              (formula != nullptr && formula->of == "objects");
+  if (!scores_objects || !mission.arena.objects.empty()) return;
+  warnings.push_back("mission " + mission.name +
+                     ": its score is about movable objects, but its arena has none");
+}
+
 /// The modules of a method that use neighbours; a network always reads them.
 std::vector<std::string> looking_for_neighbours(const Method& method) {
   if (method.architecture == Architecture::Network) return {"networks"};
@@ -140,6 +153,7 @@ std::vector<std::string> warnings_about(const Campaign& campaign) {
     warn_about_robot(mission.mission, warnings);
     warn_about_ground_points(mission.mission, warnings);
     warn_about_low_walls(mission.mission, warnings);
+    warn_about_objects(mission.mission, warnings);
   }
   for (const Method& method : campaign.methods) {
     const Flavour& flavour = **flavour_of(method);

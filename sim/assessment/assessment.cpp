@@ -19,6 +19,8 @@ Profile with_nominal_clock(Profile profile) {
   profile.timing.least_period = 1;
   profile.timing.most_period = 1;
   profile.timing.jitter = 0;
+  std::erase_if(profile.ranges,
+                [](const FieldRange& range) { return range.field == "timing.jitter"; });
   return profile;
 }
 

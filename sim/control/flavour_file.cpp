@@ -224,16 +224,20 @@ void read_parameter(TableReader& module, ParameterSpec& parameter) {
 
 /// Switches that a state, a transition or a subtree has in addition to those of its module.
 constexpr std::array<std::string_view, 5> kOwnSwitches = {"s", "n", "c", "a", "nchild"};
+/// The success of an action in a tree; conditions have this switch for their beta.
+constexpr std::string_view kSwitchOfActions = "p";
 /// The same for the parameters of the search.
 constexpr std::array<std::string_view, 13> kOwnSymbols = {
     "S",           "N",        "C",        "A",      "NumStates", "NumConnections",
     "NumSubtrees", "Selector", "Children", "Action", "Condition", "Success",
     "Root"};
 
-void check_tokens(TableReader& table, const std::string& id, const ModuleSpec& spec) {
+void check_tokens(TableReader& table, const std::string& id, const ModuleSpec& spec,
+                  bool behaviour) {
   std::set<std::string> tokens;
   for (const ParameterSpec& parameter : spec.parameters) {
-    if (std::ranges::count(kOwnSwitches, parameter.token) > 0) {
+    if (std::ranges::count(kOwnSwitches, parameter.token) > 0 ||
+        (behaviour && parameter.token == kSwitchOfActions)) {
       table.complain(id, "`" + id + "`: --" + parameter.token +
                              " has another meaning in texts; give " + parameter.name +
                              " another token");
@@ -348,7 +352,7 @@ std::optional<ModuleSpec> read_module(TableReader& tables, const std::string& id
       read_parameter(*table, parameter);
   }
   table->finish();
-  check_tokens(tables, id, spec);
+  check_tokens(tables, id, spec, behaviour);
   if (!number) return std::nullopt;  // without a number, it cannot be compared with other modules
   return spec;
 }

@@ -80,7 +80,23 @@ std::optional<std::string> misfit(const Profile& profile, const Robot& robot) {
            "`: it finds neighbours with the RVR's lidar, which has the RVR's `range` and `less`; "
            "use a profile with neighbours.source = \"camera\"";
   }
+  if (profile.contacts == ContactModel::Box2d) {
+    if (const auto flaw = friction_flaw(robot.body)) {
+      return "the profile `" + profile.name + "` does not fit the robot `" + robot.name +
+             "`: " + *flaw;
+    }
+  }
   return std::nullopt;
+}
+
+std::optional<std::string> friction_flaw(const RobotBody& body) {
+  constexpr double kLeast = 1e-6;  // far above those that are 0 as single precision numbers
+  if (body.robot_friction >= kLeast || body.wall_friction == 0 ||
+      body.robot_friction == body.wall_friction)
+    return std::nullopt;
+  return "`robot_friction` must be at least 0.000001, or 0 with `wall_friction` = 0, where Box2D "
+         "simulates contacts: with robots that are not discs, movable objects, or contacts = "
+         "\"box2d\" in the profile";
 }
 
 std::optional<std::string> misfit(NetworkInputs inputs, const Robot& robot) {

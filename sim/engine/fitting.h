@@ -20,6 +20,11 @@ std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot);
 /// fields that have no effect on the robot must be as in an ideal profile.
 std::optional<std::string> misfit(const Profile& profile, const Robot& robot);
 
+/// The reason, as a sentence, why Box2D cannot simulate these frictions of a robot; nothing when it
+/// can. It takes the friction of a contact from those of the two surfaces, so a robot that slides
+/// on others without friction would also slide on walls.
+std::optional<std::string> friction_flaw(const RobotBody& body);
+
 /// The reason, as a sentence, why networks with these inputs cannot run on the robot; nothing when
 /// they can: its rings must have the single sensors that the network reads.
 std::optional<std::string> misfit(NetworkInputs inputs, const Robot& robot);

@@ -138,13 +138,13 @@ class Run {
         profiles_.push_back(drawn_profile(setup.profile, run, i));
     }
     for (int i = 0; i < world_.robots(); ++i) {
-      agents_.push_back({.senses = RobotSenses(world_, arena_, profile_of(i), i, run),
+      agents_.push_back({.senses = RobotSenses(world_, arena_, profile_of(i), i, run,
+                                               setup.flavour.floor.any_channel),
                          .control = ControlSoftware(decider == nullptr ? setup.controller : idle(),
                                                     flavour_, control_stream(setup.seed, i)),
                          .clock = RobotClock(profile_of(i).timing, run, i)});
       next_events_.push_back(agents_.back().next_event());
       agents_.back().senses.remember(sensors);
-      if (setup.flavour.floor.any_channel) agents_.back().senses.split_ground();
       if (slips_) grips_.push_back(grip_of_run(profile_of(i).treads, run, i));
       if (disturbs_) wheel_noises_.emplace_back(run, "wheels", i);
     }

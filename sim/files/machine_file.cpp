@@ -130,7 +130,7 @@ class Reader {
     if (is_head || text.empty() || text.front() == '#' || is_comment(text)) return;
     if (in_genome_) {
       machines_.back().text += " " + std::string(text);
-      in_genome_ = !text.starts_with(kGenomeEnd);
+      in_genome_ = text.find(kGenomeEnd) == std::string_view::npos;
       return;
     }
     const std::size_t at = find_controller(text);
@@ -144,8 +144,12 @@ class Reader {
   }
 
   tl::expected<std::vector<FiledMachine>, std::vector<Error>> finish() {
+    if (has_head_) read_head(toml_, file_, errors_);
     if (machines_.empty() && errors_.empty()) {
       errors_.push_back({ErrorKind::BadInput, "the file contains no machine", file_});
+    } else if (has_head_ && errors_.empty()) {
+      errors_.push_back(
+          {ErrorKind::BadInput, "no machine follows the lines `#:` at the end of the file", file_});
     }
     if (!errors_.empty()) return tl::unexpected(counted());
     return std::move(machines_);
@@ -178,7 +182,8 @@ class Reader {
 
   void begin(std::string_view text, std::size_t at) {
     if (const auto complaint = complaint_about_name(text.substr(0, at))) complain(*complaint);
-    in_genome_ = text.substr(at).starts_with(kGenomeStart);
+    in_genome_ = text.substr(at).starts_with(kGenomeStart) &&
+                 text.find(kGenomeEnd, at) == std::string_view::npos;
     FiledMachine machine{.head = {},
                          .name = std::string(trimmed(text.substr(0, at))),
                          .text = std::string(text.substr(at)),

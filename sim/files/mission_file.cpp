@@ -4,12 +4,14 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "base/suggestion.h"
 #include "base/text/document.h"
 #include "base/text/table_reader.h"
 #include "base/text/whole_file.h"
 #include "sim/control/toml_kind.h"
+#include "sim/engine/fitting.h"
 #include "sim/files/internal/read_mission.h"
 #include "sim/files/internal/read_solids.h"
 #include "sim/files/robot_file.h"
@@ -120,7 +122,7 @@ void read_robot(TableReader& table, const ReadingPlace& place, Mission& mission)
     mission.robot = read_robot_table(*robot, from, mission.robot);
     return;
   }
-  if (auto outline = read_outline(*robot, {0.02, 5}, nullptr)) {
+  if (auto outline = read_outline(*robot, kBodySize, nullptr)) {
     mission.robot.body.outline = std::move(*outline);
     check_with_outline(*robot, mission.robot);
   }
@@ -136,6 +138,13 @@ void read_duration(TableReader& table, Mission& mission) {
   if (std::abs(cycles - std::round(cycles)) > 1e-6) {
     table.complain("duration", "`duration` must be a multiple of the control period, 0.1 s");
   }
+}
+
+/// Only our solver for discs, which does not know objects, takes any friction.
+void check_friction(TableReader& table, const Mission& mission) {
+  const RobotBody& body = mission.robot.body;
+  if (std::holds_alternative<CircleOutline>(body.outline) && mission.arena.objects.empty()) return;
+  if (const auto flaw = friction_flaw(body)) table.complain("robot", *flaw);
 }
 
 /// Tries some placements, to find a swarm that does not fit before the campaign starts.
@@ -163,6 +172,7 @@ void read_keys(TableReader& table, const ReadingPlace& place, MissionEntry& entr
   read_robot(table, place, mission);
   if (auto arena = table.table("arena")) read_arena(*arena, place.images, mission);
   if (auto instances = table.table("instances")) read_instances(*instances, entry);
+  if (table.complaints() == before) check_friction(table, mission);
   if (table.complaints() == before) check_room(table, mission);
   table.finish();
 }

@@ -1,10 +1,18 @@
 #include "sim/files/read_place.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "base/math.h"
 
 namespace swarmsmith {
+
+bool can_be_read(std::span<const Point> corners) {
+  return std::ranges::all_of(corners, [](Point corner) {
+    return std::max(std::fabs(corner.x), std::fabs(corner.y)) <= kCoordinate.most;
+  });
+}
 
 double need(TableReader& table, std::string_view key, Limits<double> limits) {
   if (!table.has(key)) table.complain(key, table.name() + " needs `" + std::string(key) + "`");

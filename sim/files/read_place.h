@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "base/text/table_reader.h"
@@ -10,6 +11,9 @@ namespace swarmsmith {
 /// Limits of coordinates and sizes in arenas, in metres.
 inline constexpr Limits<double> kCoordinate{-100, 100};
 inline constexpr Limits<double> kSize{0.001, 200};
+
+/// Whether all coordinates are within kCoordinate; only such corners can be read from a text.
+bool can_be_read(std::span<const Point> corners);
 
 /// Reads a required number; gives the upper limit after a complaint.
 double need(TableReader& table, std::string_view key, Limits<double> limits);

@@ -313,7 +313,6 @@ Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, 
 }
 
 void check_with_outline(TableReader& table, const Robot& robot) {
-  if (is_rvr(robot)) return;
   check_robot(table, robot);
   check_measures(table, robot);
 }

@@ -36,8 +36,7 @@ RobotOrErrors parse_robot(std::string_view text, const std::filesystem::path& fi
 /// added to the table's complaints.
 Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, Robot robot);
 
-/// Checks a robot whose outline was changed by a mission: whether its devices fit the outline. An
-/// RVR keeps its devices with any outline.
+/// Checks a robot whose outline was changed by a mission: whether its devices fit the outline.
 void check_with_outline(TableReader& table, const Robot& robot);
 
 /// The text that carries a robot in messages and logs: all its fields, or nothing for an RVR, with

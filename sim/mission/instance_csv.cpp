@@ -268,7 +268,10 @@ Expected<Instance> instance_of(const Mission& mission, std::int64_t seed,
   // Parts that are given are not drawn, so that an arena too small for random placement is
   // accepted.
   Mission drawn = mission;
-  if (given.starts) drawn.robots = 0;
+  if (given.starts) {
+    drawn.robots = 0;
+    drawn.placement = PlaceAnywhere{};  // fixed places would be compared with the number of robots
+  }
   Expected<Instance> instance = instance_of(drawn, seed);
   if (!instance) return instance;
   if (given.starts) {

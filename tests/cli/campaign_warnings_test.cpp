@@ -55,6 +55,23 @@ TEST(CampaignWarnings, NameMissionsInTheDarkForModulesThatWantLight) {
               IsEmpty());
 }
 
+TEST(CampaignWarnings, NameMissionsThatScoreObjectsWithoutHavingAny) {
+  Campaign campaign = campaign_of("");
+  Mission& mission = campaign.missions[0].mission;
+  const auto warned = ElementsAre(
+      "mission aggregation: its score is about movable objects, but its arena has none");
+  mission.rule = ObjectsOn{};
+  EXPECT_THAT(warnings_about(campaign), warned);
+  Formula formula;
+  mission.rule = formula;
+  EXPECT_THAT(warnings_about(campaign), IsEmpty());
+  formula.of = "objects";
+  mission.rule = formula;
+  EXPECT_THAT(warnings_about(campaign), warned);
+  mission.arena.objects.push_back({.outline = CircleOutline{0.1}, .start = {}});
+  EXPECT_THAT(warnings_about(campaign), IsEmpty());
+}
+
 TEST(CampaignWarnings, SayWhatARobotOfAnotherShapeKeepsOfTheRvr) {
   Campaign campaign = campaign_of("");
   campaign.missions[0].mission.robot.body.outline = CircleOutline{0.035};

@@ -63,7 +63,7 @@ double ray_range_m(const ProximityRing& ring, const Profile& profile) {
 }  // namespace
 
 RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& profile, int robot,
-                         const Rng& run)
+                         const Rng& run, bool splits_ground)
     : world_(&world),
       arena_(&arena),
       profile_(&profile),
@@ -80,7 +80,8 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
       neighbour_hold_{
           .beats = Beats(profile.neighbours.every_sub_steps, run, "neighbour beats", robot),
           .next = profile.neighbours.every_sub_steps == 0 ? Beats::kNever : 0},
-      neighbour_miss_rate_(miss_rate_of_run(profile.neighbours, run, robot)) {
+      neighbour_miss_rate_(miss_rate_of_run(profile.neighbours, run, robot)),
+      splits_ground_(splits_ground) {
   const GroundColorSensing& ground = profile.ground_color;
   if (ground.sd > 0 || ground.half_width > 0) ground_noise_ = NoiseStream(run, "ground", robot);
   if (ground.bias_sd > 0) {

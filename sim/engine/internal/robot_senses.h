@@ -34,18 +34,16 @@ namespace swarmsmith {
 /// a sensor for a while thus gets the same noise as one that does not.
 class RobotSenses final : public SimulatedSenses {
  public:
-  /// The robot must be at its start pose. World, arena and profile must outlive the object.
+  /// The robot must be at its start pose. World, arena and profile must outlive the object. With
+  /// `splits_ground`, ground sensors that vote give their individual grey levels of the cycle
+  /// instead, as the channels of the colour (epuck facts, section 5.2.1).
   RobotSenses(const World& world, const Arena& arena, const Profile& profile, int robot,
-              const Rng& run);
+              const Rng& run, bool splits_ground = false);
 
   /// From now on these sensors are read in each cycle if their readings combine several cycles
   /// (GroundSensor::Reading::Vote, NeighbourSensor::Source::Radio). Call it before the first cycle
   /// with all sensors that will be requested. Other sensors are read on request.
   void remember(Sensors sensors);
-
-  /// From now on ground sensors that vote give their individual grey levels of the cycle instead,
-  /// as the channels of the colour (epuck facts, section 5.2.1).
-  void split_ground() { splits_ground_ = true; }
 
   /// One control cycle of this robot.
   struct Cycle {
@@ -143,7 +141,7 @@ class RobotSenses final : public SimulatedSenses {
                                          ///< is the lidar
 
   Sensors remembered_;
-  bool splits_ground_ = false;
+  bool splits_ground_;
   /// The number of black and of white points in each of the last cycles, and in all of them.
   struct Votes {
     int black = 0;

@@ -145,7 +145,7 @@ class FieldReader {
   void outline(Outline& outline) {
     TableReader* table = current();
     if (table == nullptr) return;
-    if (auto read = read_changed_outline(*table, {0.005, 5}, outline)) outline = std::move(*read);
+    if (auto read = read_changed_outline(*table, kBodySize, outline)) outline = std::move(*read);
   }
   void angles(std::string_view key, std::vector<double>& angles) {
     read_list(key, kMostRingSensors, "sensors", "angles in degrees, such as [0, 45, -45]",

@@ -10,14 +10,17 @@ namespace {
 
 constexpr Limits<double> kRadius{0.01, 1000};
 
-/// Missing keys keep the mission's values, if its placement is a disc, too.
-PlaceInDisc read_disc(TableReader& training, const Mission& mission) {
+/// Missing keys keep the mission's values, if its placement is a disc, too. Without any key of a
+/// disc the placement stays as it is.
+Placement read_disc(TableReader& training, const Mission& mission) {
   const auto* before = std::get_if<PlaceInDisc>(&mission.placement);
   PlaceInDisc disc = before != nullptr ? *before : PlaceInDisc{};
   disc.centre.x = training.number("x", kCoordinate).value_or(disc.centre.x);
   disc.centre.y = training.number("y", kCoordinate).value_or(disc.centre.y);
   disc.radius_m = training.number("radius", kRadius).value_or(disc.radius_m);
   if (before == nullptr && !training.has("radius")) {
+    const bool is_meant = training.has("placement") || training.has("x") || training.has("y");
+    if (!is_meant) return mission.placement;
     training.complain("radius",
                       "placement = \"uniform\" in an arena of this shape needs a `radius`");
   }

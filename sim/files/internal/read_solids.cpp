@@ -79,6 +79,11 @@ std::optional<Outline> read_polygon(TableReader& table, Pose* pose) {
   }
   Pose unmoved;
   centre_corners(corners, pose != nullptr ? *pose : unmoved);
+  if (!can_be_read(corners)) {
+    table.complain("corners", "this polygon has corners beyond " + number_text(kCoordinate.most) +
+                                  " m from its centre of mass along x or y; make it smaller");
+    return std::nullopt;
+  }
   return PolygonOutline{std::move(corners)};
 }
 

@@ -7,6 +7,9 @@
 
 namespace swarmsmith {
 
+/// Limits of the sizes of a robot's body, in metres.
+inline constexpr Limits<double> kBodySize{0.005, 5};
+
 /// Reads the keys of an outline: `shape` and its sizes. The corners of a polygon may have any
 /// origin: they are moved so that the origin becomes their centre of mass, and `pose`, which refers
 /// to the same frame, is moved with them. Without a pose the corners are those of a robot, whose

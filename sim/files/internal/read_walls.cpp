@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/suggestion.h"
+#include "base/text/toml_text.h"
 #include "sim/files/read_place.h"
 #include "sim/mission/polygon.h"
 
@@ -104,6 +105,15 @@ std::vector<Point> rectangle(double width_m, double height_m) {
   return {{x, -y}, {x, y}, {-x, y}, {-x, -y}};
 }
 
+/// Stores have the corners of all shapes, so these must be corners that can be read.
+bool has_readable_corners(TableReader& arena, const std::vector<Point>& corners) {
+  if (can_be_read(corners)) return true;
+  const std::string key = arena.has("diameter") ? "diameter" : "inradius";
+  arena.complain(key, "these walls have corners beyond " + number_text(kCoordinate.most) +
+                          " m along x or y; give a smaller `" + key + "`");
+  return false;
+}
+
 /// Sets the walls of the thesis if no size is given; the placement is scaled with the walls.
 void set_dodecagon(Mission& mission, std::optional<double> inradius_m) {
   constexpr double kInradius_m = 1.226;
@@ -155,11 +165,14 @@ void read_walls(TableReader& arena, Mission& mission) {
     const auto inradius = read_inradius(arena, kDodecagon);
     const bool has_size = arena.has("area") || arena.has("inradius");
     if (has_size && !inradius) return;
+    if (inradius && !has_readable_corners(arena, regular_polygon(kDodecagon, *inradius))) return;
     if (given || has_size) set_dodecagon(mission, inradius);
     return;
   }
+  const std::size_t before = arena.complaints();
   std::vector<Point> corners = read_corners(arena, shape);
-  if (corners.empty()) return;
+  if (corners.empty() || arena.complaints() != before) return;
+  if (!has_readable_corners(arena, corners)) return;
   mission.arena.walls = walls_around(std::move(corners));
   mission.placement = PlaceAnywhere{};
 }

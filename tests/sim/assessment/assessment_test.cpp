@@ -170,6 +170,9 @@ TEST(Assessment, TestsConditionsOnANominalClock) {
   Flavour conditions = watermelon();
   conditions.behaviours.clear();
   EXPECT_THAT(failing(assess({conditions, drifting, rvr()})), IsEmpty());
+  drifting.timing.jitter = 0;
+  drifting.ranges.push_back({.field = "timing.jitter", .least = 0.04, .most = 0.05});
+  EXPECT_THAT(failing(assess({conditions, drifting, rvr()})), IsEmpty()) << "drawn for each robot";
 }
 
 }  // namespace

@@ -86,6 +86,9 @@ TEST(FlavourFile, WhatIsWrongIsSaidWithItsPlace) {
       complaints(kOnWatermelon + "[conditions]\nblack_floor = { number = 2, beta = { token = \"n\" "
                                  "} }\n"),
       ElementsAre(HasSubstr("--n has another meaning in texts; give beta another token")));
+  EXPECT_THAT(complaints(kOnWatermelon +
+                         "[behaviours]\nattraction = { number = 0, alpha = { token = \"p\" } }\n"),
+              ElementsAre(HasSubstr("--p has another meaning in texts; give alpha another token")));
   EXPECT_THAT(complaints(kOnWatermelon + "states = 17\n"),
               ElementsAre("mine.toml:3:10: `states` must be from 1 to 16, not 17"));
   EXPECT_THAT(
@@ -193,6 +196,8 @@ TEST(FlavourFile, WhatIsWrongWithAnExternalModuleIsSaid) {
   EXPECT_THAT(parameter("name = \"speed\", token = \"s\", type = \"int\", range = [1, 2]"),
               ElementsAre(HasSubstr("--s has another meaning in texts"),
                           HasSubstr("the search already has a parameter S")));
+  EXPECT_THAT(parameter("name = \"speed\", token = \"p\", type = \"int\", range = [1, 2]"),
+              ElementsAre(HasSubstr("--p has another meaning in texts")));
   EXPECT_THAT(parameter("token = \"v\", type = \"int\", range = [1, 2]"),
               ElementsAre(HasSubstr("needs `name`")));
   EXPECT_THAT(complaints(kOnWatermelon + "[conditions]\nblack_floor = { number = 0 }\n"

@@ -329,6 +329,37 @@ TEST(Epuck, DrivesInASwarmAsTheOriginalDoesForSixSeconds) {
   EXPECT_LT(farthest_off("rt-aac", "traj-rt-aac-hc03-nonoise-20robots.csv", 60, false), 1e-3);
 }
 
+/// The reading of the start is of the same kind as the later ones.
+TEST(Epuck, SeesThreeGraysUnderItBeforeItsDriversFirstBeat) {
+  Mission mission = golden_mission("rt-aac");
+  mission.arena.floor = {255, 255, 255};
+  mission.arena.patches.clear();
+  mission.shuffled = {};
+  mission.cycles = 3;
+  Profile profile = ideal();
+  profile.timing.driver_sub_steps = 100;
+  const Flavour& flavour = **find_flavour("chocolate-epuck-2018");
+  ASSERT_TRUE(flavour.floor.any_channel);
+  const Controller machine = parse_controller("--nstates 1 --s0 1", flavour).value();
+  int seen = 0;
+  const Recorder recorder(
+      [&](const Snapshot& snapshot) {
+        for (const RobotRecord& robot : snapshot.robots) {
+          if (robot.readings == nullptr) continue;
+          EXPECT_EQ(robot.readings->ground_color, (Rgb{255, 255, 255})) << snapshot.cycle;
+          ++seen;
+        }
+      },
+      Sensor::GroundColor);
+  simulate({.controller = machine,
+            .flavour = flavour,
+            .profile = profile,
+            .mission = mission,
+            .instance = instance_of(mission, 1).value()},
+           recorder);
+  EXPECT_EQ(seen, 3 * mission.robots);
+}
+
 /// Each wheel's speed is multiplied by 1 + a normal number, drawn anew in each tick (epuck facts,
 /// section 2). It acts from the second of the ten sub-steps on.
 TEST(Epuck, EachWheelHasNormalNoiseOfItsOwn) {

@@ -131,6 +131,30 @@ TEST(MachineFile, TakesGenomesAsTheyAre) {
   EXPECT_EQ(read.at(2).place, "gen_0:10");
 }
 
+TEST(MachineFile, TakesGenomesOnOneLine) {
+  const std::string genome = "genomestart 2 node 1 1 1 3 gene 1 1 2 -0.5 0 1 -0.5 1 genomeend 2";
+  const auto read = value_of(parse_machine_file(genome + "\n" + kStop, "gen_0"));
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read.at(0).text, genome);
+  EXPECT_EQ(read.at(1).text, "--nstates 1 --s0 1");
+  const auto two_lines = value_of(parse_machine_file(
+      "genomestart 2 node 1 1 1 3\ngene 1 1 2 -0.5 0 1 -0.5 1 genomeend 2\n" + std::string(kStop),
+      "gen_0"));
+  ASSERT_EQ(two_lines.size(), 2U);
+  EXPECT_EQ(two_lines.at(0).text, genome);
+}
+
+TEST(MachineFile, AHeadWithoutAMachineIsAnError) {
+  EXPECT_THAT(complaints_about(kStop + std::string("#: format = 1\n#: flavor = \"watermelon\"\n")),
+              ElementsAre(HasSubstr("m.fsm:3:4: ")));
+  EXPECT_THAT(complaints_about(kStop + std::string("#: format = 1\n")),
+              ElementsAre("m.fsm: no machine follows the lines `#:` at the end of the file"));
+  EXPECT_THAT(complaints_about("#: format = 1\n"),
+              ElementsAre("m.fsm: the file contains no machine"));
+  EXPECT_THAT(complaints_about("#: format = 1\nstop\n"),
+              ElementsAre(HasSubstr("m.fsm:2: control software begins with one of")));
+}
+
 TEST(MachineFile, SaysOnceWhatAWrongFileSeemsToBe) {
   const auto about = [](const std::string& text) {
     const auto said = complaints_about(text);

@@ -1,5 +1,8 @@
 #include "sim/files/mission_file.h"
 
+#include <string>
+#include <vector>
+
 #include "base/text/document.h"
 #include "sim/mission/polygon.h"
 #include "tests/sim/random_mission.h"
@@ -102,6 +105,29 @@ TEST(ArenaShapes, HaveTheirAreas) {
   EXPECT_NEAR(area("shape = \"circle\"\ndiameter = 2\n"), kPi, 0.01);
   EXPECT_NEAR(area("shape = \"polygon\"\ncorners = [[0, 0], [0, 2], [2, 0]]\n"), 2, 1e-12);
   EXPECT_EQ(read("").arena.walls, dodecagon_of_the_thesis().walls);
+}
+
+// Stores have the corners of all walls, whose limits are those of coordinates.
+TEST(ArenaShapes, AreRefusedWhoseTextCouldNotBeReadBack) {
+  const std::string place = "instances = { training = { placement = \"anywhere\" } }\n";
+  const std::string triangle = "shape = \"regular\"\nsides = 3\ninradius = ";
+  const std::string pentagon = "shape = \"regular\"\nsides = 5\ninradius = ";
+  for (const std::string& fits :
+       {triangle + "49.9\n", pentagon + "80\n", std::string("inradius = 99.9\n"),
+        std::string("shape = \"circle\"\ndiameter = 199.9\n")}) {
+    const MissionEntry entry{read(fits, place)};
+    EXPECT_EQ(value_of(parse_mission(mission_text(entry), "x.toml")), entry) << fits;
+  }
+  for (const std::string& too_big : {triangle + "50.1\n", pentagon + "81\n"}) {
+    EXPECT_THAT(complaints(too_big, place),
+                ElementsAre(HasSubstr("these walls have corners beyond 100 m along x or y; give a "
+                                      "smaller `inradius`")))
+        << too_big;
+  }
+  EXPECT_THAT(complaints("shape = \"square\"\nside = 200\nobstacles = [ { shape = \"polygon\", "
+                         "corners = [[-100, -100], [100, -100], [100, 100]], height = 1 } ]\n",
+                         place),
+              ElementsAre(HasSubstr("this polygon has corners beyond 100 m from its centre")));
 }
 
 TEST(ArenaShapes, WallsThatJoinAreAPolygonInEitherDirection) {
@@ -261,6 +287,18 @@ TEST(Placements, MayIgnoreObstacles) {
               Not(HasSubstr("ignores_obstacles")));
 }
 
+TEST(Placements, StayAsTheyAreUnlessOneIsGiven) {
+  const auto placement = [](const std::string& arena, const std::string& training) {
+    return read(arena, "robots = 1\ninstances = { training = { " + training + " } }\n").placement;
+  };
+  const std::string square = "shape = \"square\"\nside = 4\n";
+  EXPECT_EQ(placement(square, "ignores_obstacles = true"), Placement(PlaceAnywhere{}));
+  EXPECT_EQ(placement(square, ""), Placement(PlaceAnywhere{}));
+  EXPECT_EQ(placement(square, "radius = 0.5"), Placement(PlaceInDisc{{}, 0.5}));
+  EXPECT_EQ(placement("", "ignores_obstacles = true"), Placement(PlaceInDisc{}));
+  EXPECT_EQ(placement("", "x = 0.25, radius = 0.5"), Placement(PlaceInDisc{{0.25, 0}, 0.5}));
+}
+
 TEST(Placements, ThatCannotBeAreExplained) {
   const auto wrong = [](const std::string& training, const std::string& robots = "2") {
     return complaints("shape = \"square\"\nside = 4\n",
@@ -275,6 +313,7 @@ TEST(Placements, ThatCannotBeAreExplained) {
   EXPECT_THAT(wrong("{ placement = \"rectangle\", x = 0, y = 0, width = 0.1, height = 0.1 }"),
               ElementsAre(HasSubstr("take fewer robots, or place them over a larger part")));
   EXPECT_THAT(wrong("{ placement = \"uniform\" }"), ElementsAre(HasSubstr("needs a `radius`")));
+  EXPECT_THAT(wrong("{ x = 1 }"), ElementsAre(HasSubstr("needs a `radius`")));
   EXPECT_THAT(wrong("{ placement = \"unifrm\" }"),
               ElementsAre(HasSubstr("did you mean \"uniform\"?")));
 }
@@ -287,13 +326,40 @@ TEST(Robots, HaveBodiesOfAnyConvexShape) {
   EXPECT_EQ(body("shape = \"square\", side = 0.2"), Outline(BoxOutline{0.2, 0.2}));
   EXPECT_EQ(body("shape = \"box\", length = 0.3, width = 0.2"), Outline(BoxOutline{0.3, 0.2}));
   EXPECT_THAT(complaints("", "robot = { shape = \"circle\", diameter = 9 }\n"),
-              ElementsAre(HasSubstr("`diameter` must be from 0.02 to 5")));
+              ElementsAre(HasSubstr("`diameter` must be from 0.005 to 5")));
+  EXPECT_THAT(complaints("", "robot = { shape = \"circle\", diameter = 0.01 }\n"),
+              ElementsAre(HasSubstr("more than its own width of 0.01 m")));
   EXPECT_THAT(
       complaints("", "robot = { shape = \"polygon\", corners = [[0, 0], [1, 0], [0, 1]] }\n"),
       ElementsAre(HasSubstr("cannot be a robot's body: its centre of mass is [0.333333, ")));
   EXPECT_THAT(complaints("", "robot = 3\n"),
               ElementsAre(HasSubstr("`robot` must be a robot's name or file in quotes, such as "
                                     "\"epuck\", or a table; this is an integer")));
+}
+
+TEST(Robots, HaveTheSameSizesWithABodyAsWithAnOutline) {
+  const MissionEntry entry{
+      read("", "robot = { body = { shape = \"circle\", diameter = 0.018 } }\n")};
+  EXPECT_EQ(value_of(parse_mission(mission_text(entry), "x.toml")), entry);
+}
+
+// Box2D takes a contact's friction from those of the two surfaces, and 0 times any number is 0.
+TEST(Robots, ThatSlideOnEachOtherAloneAreDiscsWithoutObjects) {
+  const auto robot = [](const std::string& outline, const std::string& friction) {
+    return "robots = 1\nrobot = { name = \"mine\", body = { " + outline +
+           ", robot_friction = " + friction + ", wall_friction = 0.5 } }\n";
+  };
+  const std::string disc = "shape = \"circle\", diameter = 0.1";
+  const std::string box = "shape = \"square\", side = 0.1";
+  const std::string object =
+      "objects = [ { shape = \"box\", x = 1, y = 0, length = 0.1, width = 0.1, mass = 1, friction "
+      "= 1 } ]\n";
+  const auto refused = ElementsAre(HasSubstr("`robot_friction` must be at least 0.000001"));
+  EXPECT_THAT(complaints("", robot(disc, "0")), IsEmpty());
+  EXPECT_THAT(complaints(object, robot(disc, "0")), refused);
+  EXPECT_THAT(complaints("", robot(box, "0")), refused);
+  EXPECT_THAT(complaints("", robot(box, "1e-60")), refused);
+  EXPECT_THAT(complaints("", robot(box, "0.01")), IsEmpty());
 }
 
 }  // namespace

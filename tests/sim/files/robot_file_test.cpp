@@ -271,6 +271,13 @@ TEST(RobotFile, WhatDoesNotFitIsRefusedWithASentence) {
   EXPECT_THAT(misfit(**find_flavour("chocolate-epuck"), rvr()),
               Optional(HasSubstr("takes strengths")));
   EXPECT_EQ(misfit(**find_flavour("chocolate-epuck"), epuck), std::nullopt);
+  Robot slippery = epuck;
+  slippery.body.robot_friction = 0;
+  Profile box2d = built_in_profile("epuck").value();
+  EXPECT_EQ(misfit(box2d, slippery), std::nullopt);
+  box2d.contacts = ContactModel::Box2d;
+  EXPECT_EQ(misfit(box2d, epuck), std::nullopt);
+  EXPECT_THAT(misfit(box2d, slippery), Optional(HasSubstr("must be at least 0.000001")));
   EXPECT_EQ(misfit(**find_flavour("maple-epuck-2018"), epuck), std::nullopt);
   Flavour other = **find_flavour("chocolate-epuck");
   other.reference = "rm3.0";

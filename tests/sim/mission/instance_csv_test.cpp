@@ -122,6 +122,12 @@ TEST_F(ExplicitInstance, PatchesTakeTheSizeOfTheMissionsPlaces) {
   EXPECT_TRUE(instance_of(aggregation, 7, given).value().patches.empty());
 }
 
+TEST_F(ExplicitInstance, GivenStartsReplaceThePlacesOfTheMission) {
+  mission.placement = PlaceAt{{{0.5, 0.5, 0}, {-0.5, 0.5, 0}, {0, -0.5, 0}}};
+  EXPECT_EQ(error_of(7), "");
+  EXPECT_EQ(instance_of(mission, 7, given).value().starts, given.starts->at(7));
+}
+
 TEST_F(ExplicitInstance, ASeedWithoutARowIsAnError) {
   EXPECT_EQ(error_of(8), "the starts have no row for seed 8");
   given.patches = PatchesBySeed{};
