@@ -80,14 +80,21 @@ void note_lonely(const ScoreTable& table, Comparison& comparison) {
   comparison.notes.push_back(comparison.unranked.back());
 }
 
-/// Notes methods that used much less than their budget, or were extended.
-void note_unused_budgets(const std::vector<DesignRecord>& all, Comparison& comparison) {
+/// Notes methods that used much less than their budget, or more since they were extended.
+/// `commands`: of users, to the campaigns.
+void note_unused_budgets(const std::vector<DesignRecord>& all,
+                         const std::vector<CommandRow>& commands, Comparison& comparison) {
   constexpr double kNearlyAll = 0.95;
   struct Runs {
     std::int64_t used = 0;
     std::int64_t budget = 0;
     double share() const { return static_cast<double>(used) / static_cast<double>(budget); }
   };
+  std::map<DesignId, std::int64_t> extensions;
+  for (const CommandRow& command : commands) {
+    if (command.kind == CommandKind::Extend && command.step)
+      extensions[command.design] += command.budget;
+  }
   std::map<std::string, Runs> methods;
   for (const DesignRecord& design : all) {
     const bool is_compared =
@@ -96,7 +103,8 @@ void note_unused_budgets(const std::vector<DesignRecord>& all, Comparison& compa
         });
     if (!is_compared || design.state != "finished" || design.budget == 0) continue;
     methods[design.method].used += design.used;
-    methods[design.method].budget += design.budget;
+    // Without extensions: a method that was extended had more than the others.
+    methods[design.method].budget += design.budget - extensions[design.design];
   }
   if (methods.size() < 2) return;
   for (const auto& [method, runs] : methods) {
@@ -229,7 +237,7 @@ Expected<Comparison> compare(StoreReader& store, const std::vector<DesignScore>&
   if (options.by == CompareBy::Method) {
     const auto all = designs(store, {});
     if (!all) return Unexpected(all.error());
-    note_unused_budgets(*all, comparison);
+    note_unused_budgets(*all, store.commands(), comparison);
   }
   return comparison;
 }
