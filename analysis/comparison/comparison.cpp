@@ -36,14 +36,10 @@ void adjust_p_values(std::vector<ComparedPair>& pairs) {
   const auto adjusted = holm_adjusted(p_values);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     pairs[i].p_holm = adjusted[i];
-  std::size_t tests = 0;
   double least_p = 1;
-  for (const ComparedPair& pair : pairs) {
-    if (!pair.test.p_value) continue;
-    ++tests;
-    least_p = std::min(least_p, pair.test.least_p);
-  }
-  const auto note = hopeless(tests, least_p);
+  for (const ComparedPair& pair : pairs)
+    if (pair.test.p_value) least_p = std::min(least_p, pair.test.least_p);
+  const auto note = hopeless(corrected_tests(pairs), least_p);
   // A pair that is too small on its own has a note about that already.
   for (ComparedPair& pair : pairs)
     if (note && pair.test.p_value && pair.test.least_p <= kTestLevel) pair.notes.push_back(*note);
@@ -184,6 +180,11 @@ std::optional<Error> missing(const std::vector<DesignScore>& scores,
 }
 
 }  // namespace
+
+std::size_t corrected_tests(const std::vector<ComparedPair>& pairs) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      pairs, [](const ComparedPair& pair) { return pair.test.p_value.has_value(); }));
+}
 
 std::optional<std::string> hopeless(std::size_t tests, double least_p) {
   // Holm multiplies the smallest p by the number of tests, and no adjusted p is below that one.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "analysis/comparison/comparison_text.h"
 #include "tests/analysis/comparison/scores.h"
 #include "tests/support/checks.h"
 
@@ -94,6 +95,23 @@ TEST(PaperSentences, PrintAPBelowTheLevelAsBelowIt) {
       {.by = CompareBy::Method}));
   EXPECT_THAT(sentences.front().text,
               AllOf(HasSubstr("first scored lower than second"), HasSubstr("W = 13, p = 0.0499;")));
+}
+
+TEST(PaperSentences, CountTheTestsThatHolmCorrects) {
+  // "still" and "rest" scored the same everywhere: their test has no p, and is not counted.
+  std::vector<Scored> designs = of_values(kHighButOne, {});
+  for (int i = 1; i <= 8; ++i) {
+    for (const char* method : {"rest", "still"}) {
+      designs.push_back({.design = 100 + i + (method[0] == 'r' ? 50 : 0),
+                         .method = method,
+                         .repetition = i,
+                         .scores = {0}});
+    }
+  }
+  const Comparison comparison = compare(records_of(designs), {.by = CompareBy::Method});
+  ASSERT_EQ(comparison.pairs.size(), 3U);
+  EXPECT_THAT(paper_sentences(comparison).front().text, HasSubstr("by Holm over 2 comparisons"));
+  EXPECT_THAT(comparison_text(comparison), HasSubstr("Holm's over 2 tests"));
 }
 
 TEST(PaperSentences, NeverCallNoiseADifference) {
