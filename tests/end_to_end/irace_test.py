@@ -496,6 +496,51 @@ class Variants(Irace):
         self.assertEqual([line.split()[1:3] for line in sorted(more)][:6],
                          [line.split()[1:3] for line in sorted(tests) if line.startswith("1 ")])
 
+    def write_small_space(self):
+        """Six configurations: a run samples some of them twice."""
+        (self.folder / "parameters.txt").write_text('x "--x " i (0,2)\nmode "--" c (slow,fast)\n')
+
+    def equal_candidates(self):
+        """The numbers of configurations with equal values, smallest first, and one of other values."""
+        alike = {}
+        for row in self.query("SELECT candidate, fsm_config FROM v_candidates ORDER BY candidate"):
+            alike.setdefault(row["fsm_config"], []).append(int(str(row["candidate"]).lstrip("c")))
+        twice = next(ids for ids in alike.values() if len(ids) > 1)
+        return twice, next(ids[0] for ids in alike.values() if ids is not twice)
+
+    def test_configurations_that_were_sampled_twice_are_raced_again_once(self):
+        self.write_small_space()
+        self.irace()
+        (first, second, *_), other = self.equal_candidates()
+        words = ("--psrace", "--psrace-max-experiments", "40", "--psrace-ids")
+        done = self.irace(*words, f"{first},{second},{other}")
+        self.assertIn(f"# 1 here is configuration {first} of the run\n# 2 here is configuration {other} of the run\n",
+                      done.stdout)
+        self.assertNotIn("# 3 here", done.stdout)
+        self.assertIn("two configurations or more", self.irace(*words, f"{first},{second}", code=1).stderr)
+
+    def test_winners_that_were_sampled_twice_are_tested_again_once(self):
+        self.write_small_space()
+        # Costs by chance, so that other configurations win in each race.
+        self.write_runner("echo $(( (id * 7919 + seed) % 97 ))")
+        self.write_scenario(minNbSurvival=2)
+        self.irace()
+        elites = self.query("SELECT c.candidate, c.fsm_config FROM elite AS e JOIN v_candidates AS c "
+                            "ON c.candidate = e.candidate")
+        texts = {row["fsm_config"] for row in elites}
+        self.assertGreater(len({row["candidate"] for row in elites}), len(texts), "none was sampled twice")
+        self.write_scenario(minNbSurvival=2, testInstancesDir="Tests", testNbElites=99,
+                            testIterationElites=1)
+        done = self.irace()
+        self.assertEqual(done.stdout.count(" here is configuration "), len(texts))
+
+    def test_a_finished_run_may_have_no_tests(self):
+        self.irace()
+        made = len(self.calls())
+        self.write_scenario(testInstancesDir="Tests", testNbElites=0)
+        self.assertIn("testNbElites is 0", self.irace().stdout)
+        self.assertEqual(len(self.calls()), made)
+
     def test_races_without_elites_that_are_kept(self):
         self.assertIn("# Non-elitist race\n", self.runs(elitist=0, maxExperiments=300))
 
