@@ -753,6 +753,29 @@ configuration,step,on_path,changed,pair,instance,seed,cost
 2,1,1,x: 90 -> 29,1,3,25277278,42
 """
 
+    def test_a_rejected_source_has_no_mean_in_the_figure(self):
+        # Rejected at once, or on the third pair: then the first two runs have costs.
+        for least, costs in (("1", 0), ("3", 2)):
+            self.write_runner(f'[ $x -eq 90 ] && [ $instance -ge {least} ] && cost=Inf\n' + PRINT)
+            (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")
+            self.write_scenario(configurationsFile="first.txt", sampleInstances=0)
+            log = ("-l", f"run{least}.Rdata")
+            self.irace(*log)
+            done = self.irace("--ablation", "--ablation-source", "first.txt", *log)
+            self.assertRegex(done.stdout, " 1 +\\d+ +inf  source\n")
+            store, = self.folder.glob(f"run{least}-ablation*.db")
+            ended_well(call("figure", "ablation", store, "-o", "way.csv", cwd=self.folder))
+            rows = list(csv.DictReader(io.StringIO((self.folder / "way.csv").read_text())))
+            source = [row for row in rows if row["change"] == "source"]
+            self.assertEqual({row["mean_cost"] for row in source}, {"inf"})
+            self.assertEqual(sum(row["cost"] != "inf" for row in source), costs)
+            self.assertEqual(sum(row["cost"] == "inf" for row in source), 1)
+            self.assertNotIn("inf", {row["cost"] for row in rows if row["change"] != "source"})
+            ended_well(call("figure", "ablation", store, "-o", "way.svg", cwd=self.folder))
+            text = (self.folder / "way.svg").read_text()
+            self.assertIn("source (rejected)", text)
+            self.assertNotIn("source: 0.", text)
+
     def test_ablation_is_a_campaign_that_goes_on_where_it_was(self):
         (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")
         self.write_scenario(configurationsFile="first.txt")
