@@ -160,8 +160,11 @@ class Usual(Irace):
         self.assertEqual(json.loads(told.stdout.splitlines()[-1])["event"], "done")
         # What an extension runs is not an old result.
         self.assertEqual(call("extend", self.folder / "irace.db", "d1", "--budget", "60").returncode, 0)
-        self.assertNotIn("Nothing was run", self.irace().stdout)
+        extended = self.irace().stdout
+        self.assertNotIn("Nothing was run", extended)
         self.assertGreater(len(self.calls()), made)
+        used, left = re.findall(r"# experimentsUsed: (\d+)\n# remainingBudget: (\d+)\n", extended)[-1]
+        self.assertEqual(int(used) + int(left), 180 + 60)
 
     def test_calls_run_on_all_cores_unless_a_number_is_given(self):
         self.assertEqual(call("import", "scenario.txt", "-o", "campaign.toml", cwd=self.folder).returncode, 0)
