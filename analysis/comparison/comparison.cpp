@@ -36,14 +36,10 @@ void adjust_p_values(std::vector<ComparedPair>& pairs) {
   const auto adjusted = holm_adjusted(p_values);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     pairs[i].p_holm = adjusted[i];
-  std::size_t tests = 0;
   double least_p = 1;
-  for (const ComparedPair& pair : pairs) {
-    if (!pair.test.p_value) continue;
-    ++tests;
-    least_p = std::min(least_p, pair.test.least_p);
-  }
-  const auto note = hopeless(tests, least_p);
+  for (const ComparedPair& pair : pairs)
+    if (pair.test.p_value) least_p = std::min(least_p, pair.test.least_p);
+  const auto note = hopeless(corrected_tests(pairs), least_p);
   // A pair that is too small on its own has a note about that already.
   for (ComparedPair& pair : pairs)
     if (note && pair.test.p_value && pair.test.least_p <= kTestLevel) pair.notes.push_back(*note);
@@ -80,14 +76,21 @@ void note_lonely(const ScoreTable& table, Comparison& comparison) {
   comparison.notes.push_back(comparison.unranked.back());
 }
 
-/// Notes methods that used much less than their budget, or were extended.
-void note_unused_budgets(const std::vector<DesignRecord>& all, Comparison& comparison) {
+/// Notes methods that used much less than their budget, or more since they were extended.
+/// `commands`: of users, to the campaigns.
+void note_unused_budgets(const std::vector<DesignRecord>& all,
+                         const std::vector<CommandRow>& commands, Comparison& comparison) {
   constexpr double kNearlyAll = 0.95;
   struct Runs {
     std::int64_t used = 0;
     std::int64_t budget = 0;
     double share() const { return static_cast<double>(used) / static_cast<double>(budget); }
   };
+  std::map<DesignId, std::int64_t> extensions;
+  for (const CommandRow& command : commands) {
+    if (command.kind == CommandKind::Extend && command.step)
+      extensions[command.design] += command.budget;
+  }
   std::map<std::string, Runs> methods;
   for (const DesignRecord& design : all) {
     const bool is_compared =
@@ -96,7 +99,8 @@ void note_unused_budgets(const std::vector<DesignRecord>& all, Comparison& compa
         });
     if (!is_compared || design.state != "finished" || design.budget == 0) continue;
     methods[design.method].used += design.used;
-    methods[design.method].budget += design.budget;
+    // Without extensions: a method that was extended had more than the others.
+    methods[design.method].budget += design.budget - extensions[design.design];
   }
   if (methods.size() < 2) return;
   for (const auto& [method, runs] : methods) {
@@ -177,6 +181,11 @@ std::optional<Error> missing(const std::vector<DesignScore>& scores,
 
 }  // namespace
 
+std::size_t corrected_tests(const std::vector<ComparedPair>& pairs) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      pairs, [](const ComparedPair& pair) { return pair.test.p_value.has_value(); }));
+}
+
 std::optional<std::string> hopeless(std::size_t tests, double least_p) {
   // Holm multiplies the smallest p by the number of tests, and no adjusted p is below that one.
   const double least = std::min(1.0, static_cast<double>(tests) * least_p);
@@ -229,7 +238,7 @@ Expected<Comparison> compare(StoreReader& store, const std::vector<DesignScore>&
   if (options.by == CompareBy::Method) {
     const auto all = designs(store, {});
     if (!all) return Unexpected(all.error());
-    note_unused_budgets(*all, comparison);
+    note_unused_budgets(*all, store.commands(), comparison);
   }
   return comparison;
 }

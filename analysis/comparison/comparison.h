@@ -54,7 +54,7 @@ struct ComparedPair {
   std::size_t n_second = 0;
   bool paired = false;  ///< signed-rank test, else rank-sum test
   WilcoxonTest test;
-  std::optional<double> p_holm;  ///< corrected for all pairs of the comparison
+  std::optional<double> p_holm;  ///< corrected for all pairs of the comparison that have a p
   double a12 = 0.5;
   MeanDifference difference;       ///< of first - second
   std::vector<std::string> notes;  ///< caveats about this result
@@ -87,6 +87,9 @@ struct Comparison {
 
 /// The significance level of all tests.
 inline constexpr double kTestLevel = 0.05;
+
+/// The number of tests that Holm's correction counts: those that have a p.
+std::size_t corrected_tests(const std::vector<ComparedPair>& pairs);
 
 /// A note for tests that are corrected together (Holm), if the values are so few that no data could
 /// give a significant p; else nothing. `least_p`: the smallest exact p that any of the tests could

@@ -114,13 +114,14 @@ std::string how_it_was_tested(const Comparison& comparison) {
                                          [](const ComparedPair& pair) { return pair.test.exact; });
   const bool normal = std::ranges::any_of(
       comparison.pairs, [](const ComparedPair& pair) { return !pair.test.exact; });
+  const std::size_t tests = corrected_tests(comparison.pairs);
   std::string text =
-      fmt::format("p: Wilcoxon {} test, two-sided{}{}; Holm's over {} pair{}.\n",
+      fmt::format("p: Wilcoxon {} test, two-sided{}{}; Holm's over {}.\n",
                   paired ? "signed-rank" : "rank-sum", exact ? "; exact without ties" : "",
                   normal ? "; normal approximation with correction for ties and "
                            "continuity"
                          : "",
-                  comparison.pairs.size(), comparison.pairs.size() == 1 ? "" : "s");
+                  counted(tests, "test"));
   text += fmt::format(
       "A12: chance that the first is larger. Difference: of means, first - second; {} bootstrap "
       "resamples, seed {}.\n",

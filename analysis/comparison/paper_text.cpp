@@ -74,9 +74,15 @@ class Writer {
   PaperSentence sentence_;
 };
 
+/// Two significant digits; more if a p below the level would be printed as the level itself.
 std::string printed_p(double p) {
   constexpr double kLeastShown = 0.0001;
-  return p < kLeastShown ? "< 0.0001" : fmt::format("{:.2g}", p);
+  if (p < kLeastShown) return "< 0.0001";
+  const std::string level = fmt::format("{:.2g}", kPrintedLevel);
+  std::string printed = fmt::format("{:.2g}", p);
+  for (int digits = 3; p < kPrintedLevel && printed == level; ++digits)
+    printed = fmt::format("{:.{}g}", p, digits);
+  return printed;
 }
 
 std::string_view units_of(ScoreUnit unit) {
@@ -98,11 +104,20 @@ std::string place_of(const std::string& source) {
   return " in simulation with the profile " + source;
 }
 
+/// Whether the test found the first to be larger. Its ranks decide, as they give the p; the
+/// difference of the means may have the other sign.
+bool is_first_higher(const ComparedPair& pair) {
+  if (!pair.paired) return pair.a12 > 0.5;  // W / (m n)
+  // V is the sum of the positive ranks; without a difference it is half of the sum of all.
+  const auto n = static_cast<double>(pair.n_first - pair.test.zeros);
+  return pair.test.statistic > n * (n + 1) / 4;
+}
+
 /// The result of the test: a difference, or that none was found.
 std::string finding_of(const ComparedPair& pair, std::string_view units) {
   const auto p = pair.p_holm ? pair.p_holm : pair.test.p_value;
   const bool differ = p && *p < kPrintedLevel;
-  const char* more = pair.difference.value > 0 ? "higher" : "lower";
+  const char* more = is_first_higher(pair) ? "higher" : "lower";
   if (pair.paired) {
     const std::string first = place_of(pair.first);
     const std::string second = place_of(pair.second);
@@ -141,8 +156,8 @@ PaperSentence sentence_of(const Comparison& comparison, const ComparedPair& pair
   writer.value(pair.paired ? "V" : "W", as_printed(pair.test.statistic)).words(", ");
   if (pair.test.p_value) {
     writer.value("p", printed_p(*pair.test.p_value));
-    if (pair.p_holm && comparison.pairs.size() > 1) {
-      writer.words(fmt::format(", by Holm over {} comparisons ", comparison.pairs.size()));
+    if (const std::size_t tests = corrected_tests(comparison.pairs); pair.p_holm && tests > 1) {
+      writer.words(fmt::format(", by Holm over {} comparisons ", tests));
       writer.value("p", printed_p(*pair.p_holm));
     }
   } else {

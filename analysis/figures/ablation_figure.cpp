@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -22,6 +23,9 @@ constexpr double kMostLabel = 0.45;  ///< maximum part of the width for the chan
 constexpr double kRun = 0.5;         ///< radius of the dot for a run, mm
 constexpr double kMean = 0.9;
 constexpr double kBeyond = 3;  ///< to the right of the area, for half of the last tick's label
+
+/// The cost of a rejected run, and the mean cost of its configuration.
+constexpr double kRejectedCost = std::numeric_limits<double>::infinity();
 
 /// One configuration on the way from the source to the target.
 struct WayPoint {
@@ -77,7 +81,7 @@ Expected<std::vector<WayPoint>> read_way(StoreReader& store, const DesignRecord&
     way.push_back({.candidate = elite.candidate,
                    .step = elite.iteration - 1,
                    .change = {},
-                   .mean_cost = -elite.mean,
+                   .mean_cost = elite.runs > 0 ? -elite.mean : kRejectedCost,
                    .runs = {}});
     on_way.push_back(elite.candidate);
   }
@@ -94,8 +98,11 @@ Expected<std::vector<WayPoint>> read_way(StoreReader& store, const DesignRecord&
     const auto cells = race_cells(store, design.design, point.step + 1);
     if (!cells) return Unexpected(cells.error());
     for (const RaceCell& cell : *cells) {
-      if (cell.candidate == point.candidate && cell.score)
-        point.runs.emplace_back(cell.pair, -*cell.score);
+      if (cell.candidate != point.candidate) continue;
+      // Source and target stay on the way if they are rejected; the mean of an elite is of its
+      // other runs.
+      if (!cell.score) point.mean_cost = kRejectedCost;
+      point.runs.emplace_back(cell.pair, cell.score ? -*cell.score : kRejectedCost);
     }
   }
   return way;
@@ -112,6 +119,11 @@ std::string csv_of(const std::vector<WayPoint>& way) {
   return csv;
 }
 
+/// The text of its row.
+std::string label_of(const WayPoint& point) {
+  return point.change + (std::isfinite(point.mean_cost) ? "" : " (rejected)");
+}
+
 std::string draw(const std::vector<WayPoint>& way, const std::string& title,
                  const FigureOptions& options) {
   std::vector<double> costs;
@@ -119,15 +131,15 @@ std::string draw(const std::vector<WayPoint>& way, const std::string& title,
   for (const WayPoint& point : way) {
     if (std::isfinite(point.mean_cost)) costs.push_back(point.mean_cost);
     for (const auto& [pair, cost] : point.runs)
-      costs.push_back(cost);
-    widest = std::max(widest, text_width(point.change, kTextSize));
+      if (std::isfinite(cost)) costs.push_back(cost);
+    widest = std::max(widest, text_width(label_of(point), kTextSize));
   }
   const double label = std::min(widest, kMostLabel * options.width_mm);
   std::vector<std::vector<std::string>> labels;
   std::vector<double> middles;
   double height = 0;
   for (const WayPoint& point : way) {
-    labels.push_back(whole_lines(point.change, kTextSize, label));
+    labels.push_back(whole_lines(label_of(point), kTextSize, label));
     const double row = kLineHeight * static_cast<double>(labels.back().size()) + kRowGap;
     middles.push_back(height + row / 2);
     height += row;
@@ -145,7 +157,9 @@ std::string draw(const std::vector<WayPoint>& way, const std::string& title,
                       .height = height};
   std::string description = "Mean cost of each configuration on the way.";
   for (const WayPoint& point : way)
-    description += fmt::format(" {}: {:.4g}.", point.change, point.mean_cost);
+    description += std::isfinite(point.mean_cost)
+                       ? fmt::format(" {}: {:.4g}.", point.change, point.mean_cost)
+                       : fmt::format(" {}.", label_of(point));
   Svg svg(options.width_mm, area.bottom() + kHorizontalAxisRoom + kMargin, title, description);
   draw_heading(svg, title, details);
   const Axis wide(rounded(range_over(costs), kUsualTicks), area.left, area.right());
@@ -161,9 +175,8 @@ std::string draw(const std::vector<WayPoint>& way, const std::string& title,
     }
     std::vector<PagePoint> runs;
     for (const auto& [pair, cost] : way[i].runs)
-      runs.push_back({x.at(cost), y});
+      if (std::isfinite(cost)) runs.push_back({x.at(cost), y});
     svg.dots(runs, kRun, lightened(distinct_color(0), 0.6));
-    // A configuration with a rejected run has no finite mean.
     if (std::isfinite(way[i].mean_cost)) means.push_back({x.at(way[i].mean_cost), y});
   }
   svg.line(means, stroked(distinct_color(0), 0.4));

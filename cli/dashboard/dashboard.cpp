@@ -149,7 +149,7 @@ class Dashboard final : public HttpSite {
   AnswerCache::SoFar find(const SiteRequest& request) {
     std::string_view path =
         std::string_view(request.path).substr(std::min(kApi.size(), request.path.size()));
-    const std::string key = key_of(request);
+    std::string key = key_of(request);
     const auto young = Clock::now() - kFresh;
     const auto made = [&](const std::string& stamp, Clock::time_point oldest,
                           const std::function<Expected<Answer>()>& make) {
@@ -183,6 +183,8 @@ class Dashboard final : public HttpSite {
       const Pattern& pattern = *routed->pattern;
       // A page asks when `live` has shown a change; older answers do not contain it.
       const std::string stamp = stamp_of(asked.file);
+      // A final answer is one of this file: another store may get its name.
+      key += '\n' + identity_of(asked.file);
       const auto oldest = std::max(young, told());
       const auto turn = std::make_shared<std::atomic<bool>>(false);
       if (options_.is_snapshot)

@@ -1,5 +1,6 @@
 #include "cli/dashboard/store_readers.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <algorithm>
 #include <chrono>
@@ -41,6 +42,14 @@ StoreReaders::Reader StoreReaders::lent(StoreReader* reader, const std::filesyst
             const std::scoped_lock lock(mutex_);
             if (kept_.size() < kMost) kept_.push_back({name, file, std::move(returned)});
           }};
+}
+
+std::string identity_of(const std::filesystem::path& file) {
+  struct statx facts = {};
+  if (::statx(AT_FDCWD, file.c_str(), 0, STATX_INO | STATX_BTIME, &facts) != 0) return "";
+  // A file system may give the number of a deleted file to the next one, which began later.
+  return fmt::format("{}.{}.{}.{}.{}", facts.stx_dev_major, facts.stx_dev_minor, facts.stx_ino,
+                     facts.stx_btime.tv_sec, facts.stx_btime.tv_nsec);
 }
 
 std::string stamp_of(const std::filesystem::path& file) {

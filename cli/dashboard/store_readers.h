@@ -42,6 +42,10 @@ class StoreReaders {
   std::vector<Kept> kept_;
 };
 
+/// The identity of the file with this name: another one if the store was replaced by another store.
+/// Empty if there is no such file.
+std::string identity_of(const std::filesystem::path& file);
+
 /// Shows whether a store's files have changed, without opening them. Empty while they are changing:
 /// file times are too coarse to show the next change.
 std::string stamp_of(const std::filesystem::path& file);

@@ -113,6 +113,8 @@ Expected<void> IraceConsole::go_on_from(StoreReader& store) {
     }
   });
   if (error) return Unexpected(*error);
+  for (const CommandRow& command : store.commands())
+    take(command);
   // Rows after the last step are not replayed yet; they come again.
   if (steps.empty()) return {};
   const std::int64_t current = steps.back().iteration;
@@ -139,6 +141,7 @@ Expected<void> IraceConsole::go_on_from(StoreReader& store) {
 
 void IraceConsole::restore(std::size_t /*campaign*/, const Row& row) {
   if (const auto* state = std::get_if<DesignStateRow>(&row)) used_ = std::max(used_, state->used);
+  if (const auto* command = std::get_if<CommandRow>(&row)) take(*command);
 }
 
 void IraceConsole::add(std::optional<std::size_t> /*campaign*/, const Row& row, TimePoint now) {
@@ -162,7 +165,20 @@ void IraceConsole::add(std::optional<std::size_t> /*campaign*/, const Row& row, 
     calls_.take(*pair);
   } else if (const auto* run = std::get_if<EvaluationRow>(&row)) {
     add_run(*run);
+  } else if (const auto* command = std::get_if<CommandRow>(&row)) {
+    take(*command);
   }
+}
+
+void IraceConsole::take(const CommandRow& command) {
+  if (command.kind == CommandKind::Extend) extensions_[command.number] = command.budget;
+}
+
+std::int64_t IraceConsole::left_after(std::int64_t used) const {
+  std::int64_t left = run_.budget - used;
+  for (const auto& [number, budget] : extensions_)
+    left += budget;
+  return left;
 }
 
 void IraceConsole::add_run(const EvaluationRow& row) {
@@ -181,7 +197,7 @@ void IraceConsole::begin_iteration(const IterationRow& row) {
   }
   text += fmt::format("# experimentsUsed: {}\n", used_);
   const std::optional<std::int64_t> remaining =
-      run_.budget > 0 ? std::optional(run_.budget - used_) : remaining_;
+      run_.budget > 0 ? std::optional(left_after(used_)) : remaining_;
   if (remaining) text += fmt::format("# remainingBudget: {}\n", *remaining);
   text +=
       fmt::format("# currentBudget: {}\n# nbConfigurations: {}\n", row.budget, row.configurations);
@@ -241,7 +257,7 @@ void IraceConsole::add_state(const DesignStateRow& row) {
   std::string text =
       fmt::format("# {}: Stopped: {}\n# Iteration: {}\n# experimentsUsed: {}\n", date_(),
                   with_irace_option_names(row.reason), row.iteration, row.used);
-  if (run_.budget > 0) text += fmt::format("# remainingBudget: {}\n", run_.budget - row.used);
+  if (run_.budget > 0) text += fmt::format("# remainingBudget: {}\n", left_after(row.used));
   write(text);
 }
 

@@ -67,6 +67,10 @@ class IraceConsole final : public RunListener {
   void add_state(const DesignStateRow& row);
   void add_run(const EvaluationRow& row);
   void add_event(const EventRow& event);
+  /// Counts an extension; a command comes again when it takes effect.
+  void take(const CommandRow& command);
+  /// The rest of the budget with its extensions.
+  std::int64_t left_after(std::int64_t used) const;
 
   Output& output_;
   IraceRun run_;
@@ -76,13 +80,14 @@ class IraceConsole final : public RunListener {
   bool bounds_;  ///< whether there is a column for bounds
   bool in_table_ = false;
   std::optional<RaceStepRow> last_step_;
-  std::vector<EliteRow> elites_;           ///< of the race that ends
-  std::int64_t used_ = 0;                  ///< experiments that the run has used
-  std::int64_t iteration_ = 0;             ///< the current one
-  std::int64_t used_before_ = 0;           ///< experiments used before the current race
-  std::optional<std::int64_t> remaining_;  ///< experiments, estimated from max_time
-  TimePoint last_;                         ///< when the last line of the table was written
-  std::string reason_;                     ///< why the race ended, once that was printed
+  std::vector<EliteRow> elites_;                     ///< of the race that ends
+  std::int64_t used_ = 0;                            ///< experiments that the run has used
+  std::int64_t iteration_ = 0;                       ///< the current one
+  std::map<std::int64_t, std::int64_t> extensions_;  ///< experiments, by number of the command
+  std::int64_t used_before_ = 0;                     ///< experiments used before the current race
+  std::optional<std::int64_t> remaining_;            ///< experiments, estimated from max_time
+  TimePoint last_;      ///< when the last line of the table was written
+  std::string reason_;  ///< why the race ended, once that was printed
   std::string trouble_;
 };
 

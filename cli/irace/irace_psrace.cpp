@@ -1,7 +1,6 @@
 #include "cli/irace/irace_actions.h"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -54,9 +53,6 @@ Expected<std::int64_t> budget_of(const IraceSettings& settings, const IraceSetup
 Expected<std::vector<std::int64_t>> contestants_of(const IraceSettings& settings,
                                                    const StoredConfigurations& stored) {
   std::vector<std::int64_t> ids;
-  const auto add = [&ids](std::int64_t id) {
-    if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
-  };
   if (const auto text = settings.text(kIdsOption); text && !text->empty()) {
     for (const std::string_view word : split(*text, ',')) {
       std::int64_t id = 0;
@@ -66,20 +62,20 @@ Expected<std::vector<std::int64_t>> contestants_of(const IraceSettings& settings
         return bad_input("must be a list such as 3,17,20, found \"" + *text + "\"", kIdsOption);
       const auto found = stored.find(id, kIdsOption);
       if (!found) return Unexpected(found.error());
-      add(id);
+      stored.add_to(ids, id);
     }
   } else {
     const bool all = settings.is_on("--psrace-elites");
     for (const auto& [iteration, elites] : stored.elites) {
       const bool is_last = iteration == stored.elites.rbegin()->first;
       for (std::size_t i = 0; i < (all || is_last ? elites.size() : 1); ++i)
-        add(elites[i]);
+        stored.add_to(ids, elites[i]);
     }
   }
   if (ids.size() > 1) return ids;
   return bad_input(
-      "a race needs two configurations or more: name them, such as --psrace-ids 3,17, or take all "
-      "elites with --psrace-elites",
+      "a race needs two configurations or more that differ: name them, such as --psrace-ids 3,17, "
+      "or take all elites with --psrace-elites",
       "--psrace");
 }
 

@@ -77,10 +77,17 @@ ExitCode test_elites(Output& output, const IraceSetup& setup, const StorePlace& 
   for (const auto& [iteration, elites] : stored->elites) {
     const bool is_last = iteration == stored->elites.rbegin()->first;
     if (!is_last && !setup.test_iteration_elites) continue;
-    const auto most = static_cast<std::size_t>(std::max<std::int64_t>(setup.test_nb_elites, 1));
-    for (std::size_t i = 0; i < std::min(most, elites.size()); ++i) {
-      if (std::ranges::find(ids, elites[i]) == ids.end()) ids.push_back(elites[i]);
-    }
+    const auto most = std::min(static_cast<std::size_t>(setup.test_nb_elites), elites.size());
+    for (std::size_t i = 0; i < most; ++i)
+      stored->add_to(ids, elites[i]);
+  }
+  if (ids.empty()) {
+    const std::string none =
+        fmt::format("The race in {} is over, and testNbElites is 0: nothing is tested\n",
+                    store.file().string());
+    if (output.json) print_note(output, none);
+    if (!output.json && !output.quiet) output.out << "# " << none;
+    return ExitCode::Done;
   }
   std::vector<Configuration> configurations;
   configurations.reserve(ids.size());

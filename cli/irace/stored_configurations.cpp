@@ -34,6 +34,12 @@ std::optional<Configuration> configuration_of(const ParameterSpace& space,
   return configuration;
 }
 
+void StoredConfigurations::add_to(std::vector<std::int64_t>& ids, std::int64_t id) const {
+  const Configuration& values = all.at(id);
+  if (std::ranges::none_of(ids, [&](std::int64_t other) { return all.at(other) == values; }))
+    ids.push_back(id);
+}
+
 Expected<Configuration> StoredConfigurations::find(std::int64_t id,
                                                    const std::string& option) const {
   const auto found = all.find(id);

@@ -19,6 +19,9 @@ struct StoredConfigurations {
   std::map<std::int64_t, Configuration> all;
   std::map<std::int64_t, std::vector<std::int64_t>> elites;  ///< by iteration, best first
 
+  /// Adds the id to a list, unless the list has it, or another one with equal values: a run may
+  /// sample a configuration twice, and a race or a file of configurations has each only once.
+  void add_to(std::vector<std::int64_t>& ids, std::int64_t id) const;
   /// The error NotFound lists the existing ids.
   Expected<Configuration> find(std::int64_t id, const std::string& option) const;
 };

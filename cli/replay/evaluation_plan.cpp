@@ -110,9 +110,10 @@ Expected<Table> read_table(const std::string& file, Expected<Table> (*parse)(std
   return bad_input(table.error().message, file + ":" + table.error().where);
 }
 
-/// The tables of starts and patches, if the arguments name them.
+/// The tables of starts and patches, if the arguments name them; patches only if a job's mission
+/// shuffles some.
 Expected<ExplicitInstances> read_instances(const EvaluateArguments& arguments,
-                                           const Mission& mission, Output& output) {
+                                           const std::vector<EvaluationJob>& jobs, Output& output) {
   ExplicitInstances given;
   if (!arguments.starts.empty()) {
     auto starts = read_table(arguments.starts, parse_starts_csv);
@@ -120,8 +121,12 @@ Expected<ExplicitInstances> read_instances(const EvaluateArguments& arguments,
     given.starts = std::move(*starts);
   }
   if (arguments.patches.empty()) return given;
-  if (mission.shuffled.places.empty()) {
-    print_note(output, "mission " + mission.name + " shuffles no patches: --patches is not used");
+  const auto shuffles = [](const EvaluationJob& job) {
+    return !job.mission.shuffled.places.empty();
+  };
+  if (std::ranges::none_of(jobs, shuffles)) {
+    print_note(output, "mission " + jobs.front().mission.name +
+                           " shuffles no patches: --patches is not used");
     return given;
   }
   auto patches = read_table(arguments.patches, parse_patches_csv);
@@ -336,7 +341,7 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
     print_note(output, named.place + ": " + *remark);
     break;
   }
-  const auto given = read_instances(arguments, plan.jobs.front().mission, output);
+  const auto given = read_instances(arguments, plan.jobs, output);
   if (!given) return Unexpected(given.error());
   if (auto added = add_instances(plan, *given, output); !added) return Unexpected(added.error());
   return plan;

@@ -103,16 +103,20 @@ class CampaignRun {
     const std::string endpoint = (*service)->endpoint();
     CoordinatorFile file = coordinator_file(options_.access, access_, endpoint);
     if (pages_) file.http = "http://" + pages_->address();
-    for (const std::filesystem::path& path : coordinator_files()) {
-      if (const auto written = write_coordinator_file(path, file); !written) {
-        return fail(output_, ExitCode::Unreachable, written.error());
-      }
-    }
-    if (options_.announce) announce(endpoint);
-    const ExitCode ended = serve_with_workers(**service);
+    const ExitCode ended = serve_at(file, **service);
+    // Also if only some could be written: no file may name a coordinator that has ended.
     for (const std::filesystem::path& path : coordinator_files())
       remove_coordinator_file(path, file);
     return ended;
+  }
+
+  ExitCode serve_at(const CoordinatorFile& file, Service& service) {
+    for (const std::filesystem::path& path : coordinator_files()) {
+      if (const auto written = write_coordinator_file(path, file); !written)
+        return fail(output_, ExitCode::Unreachable, written.error());
+    }
+    if (options_.announce) announce(service.endpoint());
+    return serve_with_workers(service);
   }
 
   /// The dashboard of all campaigns that run here.

@@ -2,7 +2,7 @@
 import signal
 import unittest
 
-from programs import ProgramTest, call, children_of, designs_of, ended_well, send, used, wait_for
+from programs import ProgramTest, call, campaign_text, children_of, designs_of, ended_well, send, used, wait_for
 
 
 class Commands(ProgramTest):
@@ -134,6 +134,16 @@ class Commands(ProgramTest):
         self.assertIsNotNone(commands[0]["step"])
         self.assertIn("@", commands[0]["who"])
         self.assertIn("cancelled before", self.ask("cancel", self.store, "d2", code=1))
+
+    def test_no_coordinator_file_stays_if_another_one_cannot_be_written(self):
+        for name, seed in (("a", 7), ("b", 8)):
+            (self.folder / f"{name}.toml").write_text(
+                campaign_text(self.budget, seed=seed, tests=self.tests, store=f"{name}.db"))
+        (self.folder / "b.db.coordinator").mkdir()
+        done = call("run", "a.toml", "b.toml", "--no-dashboard", "--workers", "1", cwd=self.folder)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("b.db.coordinator", done.stderr)
+        self.assertFalse((self.folder / "a.db.coordinator").exists(), "nothing listens there")
 
     def test_an_extension_goes_on_from_the_end_by_the_next_run(self):
         self.file.write_text(self.file.read_text().replace("= 6000", "= 1400"))

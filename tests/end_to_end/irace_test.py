@@ -160,8 +160,11 @@ class Usual(Irace):
         self.assertEqual(json.loads(told.stdout.splitlines()[-1])["event"], "done")
         # What an extension runs is not an old result.
         self.assertEqual(call("extend", self.folder / "irace.db", "d1", "--budget", "60").returncode, 0)
-        self.assertNotIn("Nothing was run", self.irace().stdout)
+        extended = self.irace().stdout
+        self.assertNotIn("Nothing was run", extended)
         self.assertGreater(len(self.calls()), made)
+        used, left = re.findall(r"# experimentsUsed: (\d+)\n# remainingBudget: (\d+)\n", extended)[-1]
+        self.assertEqual(int(used) + int(left), 180 + 60)
 
     def test_calls_run_on_all_cores_unless_a_number_is_given(self):
         self.assertEqual(call("import", "scenario.txt", "-o", "campaign.toml", cwd=self.folder).returncode, 0)
@@ -496,6 +499,51 @@ class Variants(Irace):
         self.assertEqual([line.split()[1:3] for line in sorted(more)][:6],
                          [line.split()[1:3] for line in sorted(tests) if line.startswith("1 ")])
 
+    def write_small_space(self):
+        """Six configurations: a run samples some of them twice."""
+        (self.folder / "parameters.txt").write_text('x "--x " i (0,2)\nmode "--" c (slow,fast)\n')
+
+    def equal_candidates(self):
+        """The numbers of configurations with equal values, smallest first, and one of other values."""
+        alike = {}
+        for row in self.query("SELECT candidate, fsm_config FROM v_candidates ORDER BY candidate"):
+            alike.setdefault(row["fsm_config"], []).append(int(str(row["candidate"]).lstrip("c")))
+        twice = next(ids for ids in alike.values() if len(ids) > 1)
+        return twice, next(ids[0] for ids in alike.values() if ids is not twice)
+
+    def test_configurations_that_were_sampled_twice_are_raced_again_once(self):
+        self.write_small_space()
+        self.irace()
+        (first, second, *_), other = self.equal_candidates()
+        words = ("--psrace", "--psrace-max-experiments", "40", "--psrace-ids")
+        done = self.irace(*words, f"{first},{second},{other}")
+        self.assertIn(f"# 1 here is configuration {first} of the run\n# 2 here is configuration {other} of the run\n",
+                      done.stdout)
+        self.assertNotIn("# 3 here", done.stdout)
+        self.assertIn("two configurations or more", self.irace(*words, f"{first},{second}", code=1).stderr)
+
+    def test_winners_that_were_sampled_twice_are_tested_again_once(self):
+        self.write_small_space()
+        # Costs by chance, so that other configurations win in each race.
+        self.write_runner("echo $(( (id * 7919 + seed) % 97 ))")
+        self.write_scenario(minNbSurvival=2)
+        self.irace()
+        elites = self.query("SELECT c.candidate, c.fsm_config FROM elite AS e JOIN v_candidates AS c "
+                            "ON c.candidate = e.candidate")
+        texts = {row["fsm_config"] for row in elites}
+        self.assertGreater(len({row["candidate"] for row in elites}), len(texts), "none was sampled twice")
+        self.write_scenario(minNbSurvival=2, testInstancesDir="Tests", testNbElites=99,
+                            testIterationElites=1)
+        done = self.irace()
+        self.assertEqual(done.stdout.count(" here is configuration "), len(texts))
+
+    def test_a_finished_run_may_have_no_tests(self):
+        self.irace()
+        made = len(self.calls())
+        self.write_scenario(testInstancesDir="Tests", testNbElites=0)
+        self.assertIn("testNbElites is 0", self.irace().stdout)
+        self.assertEqual(len(self.calls()), made)
+
     def test_races_without_elites_that_are_kept(self):
         self.assertIn("# Non-elitist race\n", self.runs(elitist=0, maxExperiments=300))
 
@@ -707,6 +755,29 @@ configuration,step,on_path,changed,pair,instance,seed,cost
 1,0,1,source,5,4,958447822,3636
 2,1,1,x: 90 -> 29,1,3,25277278,42
 """
+
+    def test_a_rejected_source_has_no_mean_in_the_figure(self):
+        # Rejected at once, or on the third pair: then the first two runs have costs.
+        for least, costs in (("1", 0), ("3", 2)):
+            self.write_runner(f'[ $x -eq 90 ] && [ $instance -ge {least} ] && cost=Inf\n' + PRINT)
+            (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")
+            self.write_scenario(configurationsFile="first.txt", sampleInstances=0)
+            log = ("-l", f"run{least}.Rdata")
+            self.irace(*log)
+            done = self.irace("--ablation", "--ablation-source", "first.txt", *log)
+            self.assertRegex(done.stdout, " 1 +\\d+ +inf  source\n")
+            store, = self.folder.glob(f"run{least}-ablation*.db")
+            ended_well(call("figure", "ablation", store, "-o", "way.csv", cwd=self.folder))
+            rows = list(csv.DictReader(io.StringIO((self.folder / "way.csv").read_text())))
+            source = [row for row in rows if row["change"] == "source"]
+            self.assertEqual({row["mean_cost"] for row in source}, {"inf"})
+            self.assertEqual(sum(row["cost"] != "inf" for row in source), costs)
+            self.assertEqual(sum(row["cost"] == "inf" for row in source), 1)
+            self.assertNotIn("inf", {row["cost"] for row in rows if row["change"] != "source"})
+            ended_well(call("figure", "ablation", store, "-o", "way.svg", cwd=self.folder))
+            text = (self.folder / "way.svg").read_text()
+            self.assertIn("source (rejected)", text)
+            self.assertNotIn("source: 0.", text)
 
     def test_ablation_is_a_campaign_that_goes_on_where_it_was(self):
         (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")

@@ -180,6 +180,19 @@ max_experiments = 1400
         (self.folder / "patches.csv").write_text(lines)
         self.assertNotEqual(self.scores(machine, *given), self.stored(design))
 
+    def test_patches_are_read_if_only_a_later_design_shuffles_some(self):
+        table = self.folder / "patches.csv"
+        ended_well(call("export", self.store, "--what", "patches", "-o", table))
+        seed = int(table.read_text().splitlines()[1].split(",")[0])
+        first = self.query(self.store, "SELECT mission FROM v_designs WHERE design = 1")[0]["mission"]
+        self.assertEqual(first, "aggregation", "it shuffles no patches")
+        words = ("evaluate", "best", self.store, "--no-store", "--json", "--seeds", str(seed), "--patches", table)
+        as_drawn = ended_well(call(*words))
+        self.assertNotIn("--patches is not used", as_drawn.stderr)
+        other = {"yellow": "green", "green": "yellow"}
+        table.write_text(re.sub("yellow|green", lambda color: other[color[0]], table.read_text()))
+        self.assertNotEqual(ended_well(call(*words)).stdout, as_drawn.stdout)
+
     def test_a_table_is_of_one_mission(self):
         done = call("export", self.store, "--what", "starts")
         self.assertEqual(done.returncode, 2)

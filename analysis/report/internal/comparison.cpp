@@ -25,13 +25,12 @@ HtmlTable pairs_table(const Comparison& comparison) {
   const bool by_source = comparison.options.by == CompareBy::Source;
   HtmlTable table{
       .caption = fmt::format(
-          "{}; {}. Holm's correction is over the {} rows; A12 is the "
-          "chance "
-          "that the first is larger; the difference is of means, first - second, with the 95 % "
+          "{}; {}. Holm's correction is over {}; A12 is the chance that the first is larger; the "
+          "difference is of means, first - second, with the 95 % "
           "interval of {} bootstrap resamples.",
           by_source ? "The same winners in two sources: Wilcoxon's signed-rank test, two-sided"
                     : "Two methods in the same source: Wilcoxon's rank-sum test, two-sided",
-          comparison.said, comparison.pairs.size(), kResamples),
+          comparison.said, counted(corrected_tests(comparison.pairs), "test"), kResamples),
       .columns = {{"mission"},
                   {by_source ? "method" : "source"},
                   {"first"},

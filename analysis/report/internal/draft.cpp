@@ -13,6 +13,7 @@ std::string command_of(std::string_view kind, const FigureOptions& options) {
   std::string command = fmt::format("swarmsmith figure {} STORE", kind);
   if (options.filter.design) command += " --design " + to_string(*options.filter.design);
   if (!options.filter.mission.empty()) command += " --mission " + options.filter.mission;
+  if (options.candidate) command += " --candidate " + to_string(*options.candidate);
   return command;
 }
 

@@ -238,14 +238,21 @@ Expected<Vector> format_texts(const Node& node, std::vector<Part> parts) {
   return result;
 }
 
+/// R's seq.default: of from, to, by and the length, three give the fourth.
 Expected<Vector> sequence(const Node& node, const Arguments& given) {
   double from = given.number("from").value_or(1);
   std::optional<double> to = given.number("to");
   const std::optional<double> count = given.number("length.out");
+  if (given.has("from") && to && given.has("by") && count)
+    return wrong(node, "seq takes three of `from`, `to`, `by` and `length.out`: leave one out");
   // seq(5) means 1 to 5.
   if (!to && !count && !given.has("by")) to = std::exchange(from, 1);
-  double by = given.number("by").value_or(to && *to < from ? -1 : 1);
-  if (count && to && *count > 1) by = (*to - from) / (*count - 1);
+  double by = given.number("by").value_or(to && *to < from && !count ? -1 : 1);
+  if (count && to && !given.has("from")) {
+    from = *to - (*count - 1) * by;
+  } else if (count && to && *count > 1) {
+    by = (*to - from) / (*count - 1);
+  }
   const double steps = count ? *count - 1 : std::floor((to.value_or(from) - from) / by + 1e-10);
   if (!std::isfinite(steps) || steps < -1 || (steps < 0 && !count))
     return wrong(node, "seq cannot come from " + to_text(Scalar::real(from)) + " to " +

@@ -82,9 +82,14 @@ void check_race(SetupWork& work) {
     return;
   }
   if (race.max_experiments > 0 && race.max_time > 0) {
-    work.complain("maxTime",
-                  "is given together with `maxExperiments`: a budget is one of the two; set the "
-                  "other one to 0");
+    // `minExperiments` raises `maxExperiments` (irace facts, 3.4): the user may have set it alone.
+    const auto given = work.settings.number("maxExperiments");
+    work.complain("maxTime", given.value_or(0) > 0
+                                 ? "is given together with `maxExperiments`: a budget is one of "
+                                   "the two; set the other one to 0"
+                                 : "is given together with `minExperiments`, which is a number of "
+                                   "experiments: a budget is experiments or time; leave one of "
+                                   "them out");
     return;
   }
   const auto checked = check(race);

@@ -23,10 +23,10 @@ TEST_F(ComparisonStoreTest, SummarisesTheWinnersTests) {
   EXPECT_NEAR(comparison.groups.front().summary.mean, std::stod(mean.front().front()), 1e-9);
 }
 
-/// Two methods of one design with a budget of 1,000, which used so much. The second one has another
-/// design, which is not finished.
+/// Two methods of one design with a budget of 1,000, which used so much; a user extended the second
+/// one by `more`. The second one has another design, which is not finished.
 Expected<Comparison> compared_budgets(const std::filesystem::path& file, std::int64_t all,
-                                      std::int64_t other, CompareBy by) {
+                                      std::int64_t other, CompareBy by, std::int64_t more = 0) {
   SyntheticCampaign made = synthetic_campaign({.designs = 3, .tests = 4});
   for (DesignRow& design : made.designs) {
     design.mission = "m";
@@ -53,6 +53,13 @@ Expected<Comparison> compared_budgets(const std::filesystem::path& file, std::in
     }
     EXPECT_EQ(ends.size(), 3U);
     store->append(std::move(ends));
+    if (more > 0) {
+      store->append({CommandRow{.number = 1,
+                                .kind = CommandKind::Extend,
+                                .design = made.designs[1].id,
+                                .step = 1,
+                                .budget = more}});
+    }
   }
   const auto two = open_reader(file);
   return compare(*two, {.by = by});
@@ -71,7 +78,7 @@ TEST_F(ComparisonStoreTest, SaysWhichMethodUsedMuchLessThanItsBudget) {
 
 TEST_F(ComparisonStoreTest, SaysWhichMethodWasExtended) {
   const auto comparison =
-      value_of(compared_budgets(folder / "two.db", 1000, 2300, CompareBy::Method));
+      value_of(compared_budgets(folder / "two.db", 1000, 2300, CompareBy::Method, 1300));
   EXPECT_THAT(comparison.notes,
               Contains("other used 230 % of its experiments (2300 of 1000), since it was "
                        "extended: compare with what the others used"));

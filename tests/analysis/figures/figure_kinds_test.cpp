@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <set>
+#include <string>
+#include <variant>
 
 #include <fmt/ranges.h>
 
@@ -103,6 +105,31 @@ TEST_F(FigureKinds, ASourceHasItsColourWhateverElseIsDrawn) {
   EXPECT_THAT(made("box", {.by = "source", .source = "rvr"}).svg, HasSubstr(distinct_color(0)));
   EXPECT_THAT(made("box", {.by = "source", .source = "real"}).svg, HasSubstr(distinct_color(1)));
   EXPECT_THAT(made("scores", {.by = "source", .source = "real"}).svg, HasSubstr(distinct_color(1)));
+}
+
+TEST_F(FigureKinds, AGapWithoutAnyChangeSaysThatThereIsNothingToTest) {
+  auto store = filled_store(folder / "same.db", campaign);
+  for (const auto& batch : campaign.batches) {
+    for (const Row& row : batch) {
+      if (const auto* pair = std::get_if<PairRow>(&row)) {
+        PairRow again = *pair;
+        again.purpose = Purpose::Score;
+        if (pair->purpose == Purpose::Test) store->append({again});
+      } else if (const auto* run = std::get_if<EvaluationRow>(&row)) {
+        EvaluationRow again = *run;
+        again.key.purpose = Purpose::Score;
+        again.source = "other";
+        if (run->key.purpose == Purpose::Test) store->append({again});
+      }
+    }
+  }
+  store.reset();
+  reader = open_reader(folder / "same.db");
+  std::string words;
+  for (const TextBox& text : texts_of(made("gap", {.width_mm = 174}).svg))
+    words += text.text + " ";
+  EXPECT_THAT(words, AllOf(HasSubstr("rvr to other, mean change +0, no differences to test"),
+                           Not(HasSubstr("too few"))));
 }
 
 TEST_F(FigureKinds, ModulesAreThoseOfTheView) {

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "storage/internal/sqlite.h"
@@ -42,6 +44,19 @@ TEST_F(RaceAnswersTest, ARaceHasAllCellsOfItsView) {
   EXPECT_EQ(found, expected);
   EXPECT_EQ(race["rows_total"], race["candidates"].size());
   EXPECT_EQ(race["ended"], true);
+}
+
+TEST_F(RaceAnswersTest, AnotherStoreOfTheSameNameHasItsOwnAnswers) {
+  const Asking asking(store_);
+  const std::map<std::string, std::string> first{{"iteration", "1"}};
+  const json before = asking.json("c1/designs/d1/race", first);
+  EXPECT_EQ(before["ended"], true) << "it is kept for ever";
+  const std::string other = (folder_ / "other.db").string();
+  write_synthetic_store(other, {.candidates = 6});
+  std::filesystem::rename(other, store_);
+  const json after = asking.json("c1/designs/d1/race", first);
+  EXPECT_NE(after["candidates"], before["candidates"]);
+  EXPECT_EQ(after, Asking(store_).json("c1/designs/d1/race", first));
 }
 
 TEST_F(RaceAnswersTest, WhoWasDroppedHasNoFurtherScores) {

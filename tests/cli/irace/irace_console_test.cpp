@@ -116,6 +116,31 @@ TEST_F(Console, SaysWhyTheRunEnded) {
                                     "# experimentsUsed: 195\n# remainingBudget: 5\n"));
 }
 
+TEST_F(Console, CountsWhatARunWasExtendedBy) {
+  IraceConsole irace = console();
+  const CommandRow given{
+      .number = 1, .kind = CommandKind::Extend, .design = kOne, .step = {}, .budget = 100};
+  irace.restore(0, given);
+  CommandRow done = given;
+  done.step = 2;
+  // The same command again, now with the step after which it took effect; and another kind.
+  irace.add(0, done, TimePoint());
+  irace.add(0, CommandRow{.number = 2, .kind = CommandKind::Pause, .budget = 7}, TimePoint());
+  irace.add(0,
+            DesignStateRow{.design = kOne, .state = DesignState::Racing, .used = 195, .reason = {}},
+            TimePoint());
+  irace.add(0, IterationRow{.design = kOne, .number = 3, .of = 3, .budget = 50}, TimePoint());
+  EXPECT_THAT(out_.str(), HasSubstr("# experimentsUsed: 195\n# remainingBudget: 105\n"));
+  irace.add(0,
+            DesignStateRow{.design = kOne,
+                           .state = DesignState::Testing,
+                           .used = 290,
+                           .iteration = 3,
+                           .reason = "budget exhausted"},
+            TimePoint());
+  EXPECT_THAT(out_.str(), HasSubstr("# experimentsUsed: 290\n# remainingBudget: 10\n"));
+}
+
 /// A store of the rows above.
 class ConsoleOfAStore : public Console {
  protected:
@@ -173,6 +198,19 @@ TEST_F(ConsoleOfAStore, ReportsAsIraceDoes) {
   Scenario by_mean;
   by_mean.test_type = TestType::TTest;
   EXPECT_THAT(best_text(result, by_mean), HasSubstr("according to the mean value):"));
+}
+
+TEST_F(ConsoleOfAStore, GoesOnWithWhatItWasExtendedBy) {
+  {
+    const Campaign campaign = one_design_campaign();
+    auto store = value_of(Store::open(file_, campaign_row(campaign), design_rows(campaign)));
+    store->append({CommandRow{
+        .number = 1, .kind = CommandKind::Extend, .design = kOne, .step = {}, .budget = 100}});
+    store->flush();
+  }
+  IraceConsole irace = console();
+  ASSERT_TRUE(irace.go_on_from(*reader()));
+  EXPECT_THAT(out_.str(), HasSubstr("# experimentsUsed: 5\n# remainingBudget: 295\n"));
 }
 
 class ConsoleOfTests : public ConsoleOfAStore {

@@ -1,6 +1,7 @@
 #include "irace_core/files/scenario_file.h"
 
 #include <map>
+#include <string>
 
 #include "tests/support/checks.h"
 
@@ -64,6 +65,24 @@ TEST(ScenarioFile, KnowsTheFunctionsOfRealScenarios) {
   };
   EXPECT_EQ(texts("paste0(\"i\", seq(1, 7, by = 3))"),
             world.value("instances = c(\"i1\", \"i4\", \"i7\")", "instances"));
+  // R 4.2: seq counts back from `to` if there is no `from`.
+  for (const auto& [call, numbers] :
+       std::map<std::string, std::string>{{"seq(to = 10, length.out = 5)", "6, 7, 8, 9, 10"},
+                                          {"seq(to = 10, by = 2, length.out = 3)", "6, 8, 10"},
+                                          {"seq(to = 1, by = -2, length.out = 3)", "5, 3, 1"},
+                                          {"seq(4, by = 2, length.out = 3)", "4, 6, 8"},
+                                          {"seq(4, length.out = 3)", "4, 5, 6"},
+                                          {"seq(1, 4, length.out = 4)", "1, 2, 3, 4"},
+                                          {"seq(4, 1, length.out = 4)", "4, 3, 2, 1"},
+                                          {"seq(length.out = 3)", "1, 2, 3"},
+                                          {"seq(by = 2, length.out = 3)", "1, 3, 5"},
+                                          {"seq(to = 3)", "1, 2, 3"},
+                                          {"seq(3)", "1, 2, 3"},
+                                          {"seq(from = 3)", "1, 2, 3"}}) {
+    EXPECT_EQ(texts("paste0(\"i\", " + call + ")"),
+              world.value("instances = paste0(\"i\", c(" + numbers + "))", "instances"))
+        << call;
+  }
   EXPECT_EQ(texts("sprintf(\"i%d\", seq_len(2))"),
             world.value("instances = c(\"i1\", \"i2\")", "instances"));
   EXPECT_EQ(texts("readLines(\"lists/names.txt\")"),
@@ -85,6 +104,7 @@ TEST(ScenarioFile, SaysWhatIsWrongWithACallOfAFunction) {
   EXPECT_THAT(error("sprintf(\"%d\", 0.5)"), HasSubstr("must be a whole number, found 0.5"));
   EXPECT_THAT(error("readLines(\"none.txt\")"), HasSubstr("readLines: there is no such file"));
   EXPECT_THAT(error("seq(1, 9, by = -1)"), HasSubstr("seq cannot come from 1 to 9 by -1"));
+  EXPECT_THAT(error("seq(1, 9, by = 2, length.out = 5)"), HasSubstr("seq takes three of"));
   EXPECT_THAT(error("seq(1, 1e9)"), HasSubstr("too long a vector"));
   EXPECT_THAT(error("dirname(file = \"a\")"), HasSubstr("`dirname` has no argument `file` here"));
   EXPECT_THAT(error("r\"(a"), HasSubstr("not closed"));

@@ -302,6 +302,13 @@ TEST_F(IraceSetupFiles, ABudgetIsRunsOrTime) {
               ElementsAre(HasSubstr("--max-time: is given together with `maxExperiments`")));
   EXPECT_EQ(setup({"--max-time", "60", "--max-experiments", "0"}).race.max_time, 60);
   EXPECT_EQ(setup({"--min-experiments", "900"}).race.max_experiments, 900);
+  // The message names the option that was set (minExperiments raises maxExperiments, 3.4).
+  EXPECT_THAT(
+      errors({"--max-time", "60", "--max-experiments", "0", "--min-experiments", "200"}),
+      ElementsAre(AllOf(HasSubstr("--max-time: is given together with `minExperiments`"),
+                        HasSubstr("leave one of them out"), Not(HasSubstr("maxExperiments")))));
+  EXPECT_THAT(errors({"--max-time", "60", "--min-experiments", "200"}),
+              ElementsAre(HasSubstr("--max-time: is given together with `maxExperiments`")));
 }
 
 TEST_F(IraceSetupFiles, TestingAloneNeedsTestInstancesOnly) {
