@@ -237,7 +237,7 @@ int run_command_line(int argc, char** argv) {
   CLI::App app{
       "Evaluates control software for the coordinator of a campaign.\n"
       "Exit codes: 0 drained, 2 usage, 5 no coordinator for ten minutes, 7 refused by the "
-      "coordinator\n(another build), 143 interrupted twice. SIGTERM drains."};
+      "coordinator\n(another build), 8 no place for it, 143 interrupted twice. SIGTERM drains."};
   app.name("swarmsmith-worker");
   CLI::Option_group* where = app.add_option_group("Address of the coordinator, one of");
   where->add_option("--connect", arguments.connect, "Address of the coordinator")
