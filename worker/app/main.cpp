@@ -41,11 +41,15 @@ namespace {
 
 // The only data that signal handlers use.
 std::atomic<bool> g_drain{false};
+std::atomic<bool> g_interrupted{false};
 std::atomic<bool> g_out_of_time{false};
 Wakeup* g_wakeup = nullptr;
 
 void on_signal(int) {
-  if (g_drain.exchange(true)) std::_Exit(static_cast<int>(WorkerExit::Interrupted));
+  // Not `g_drain`, which the end of the input and the processor's limit set, too: after them, too,
+  // the first signal lets the worker return its tasks.
+  if (g_interrupted.exchange(true)) std::_Exit(static_cast<int>(WorkerExit::Interrupted));
+  g_drain = true;
   if (g_wakeup != nullptr) g_wakeup->notify();
 }
 
