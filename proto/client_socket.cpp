@@ -44,15 +44,15 @@ Expected<std::vector<Address>> looked_up(const std::vector<std::string>& endpoin
 
 /// A sentence that names the user of the program that listens there, if it is another user; else
 /// empty. A coordinator of root does not admit other users, but a program of root may be the end of
-/// a tunnel.
+/// a tunnel. A client of root connects to root's programs only.
 std::string other_owner(const Address& address) {
   if (!is_loopback(address.host)) return "";
   const auto user = user_who_listens(address.host, address.port);
-  if (!user || *user == geteuid() || geteuid() == 0) return "";
+  if (!user || *user == geteuid()) return "";
   return "the program that listens there belongs to another user of this host (" +
          name_of_user(*user) +
-         "); without keys a coordinator on loopback answers only its own user (`swarmsmith "
-         "keygen`)";
+         "); without keys client and coordinator on loopback must belong to the same user "
+         "(`swarmsmith keygen`)";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "programs/cost.h"
 
 namespace swarmsmith {
 
@@ -16,7 +17,13 @@ Result evaluate(const Evaluator& evaluator, const LeasedTask& item) {
     result = evaluator(item);
     // A score is a finite number: SQLite stores NaN as NULL (orchestration facts, 7), and an
     // infinite cost means a rejection (irace facts, 12).
-    if (!std::isfinite(result.measured.score)) result = {.failure = "the score is not finite"};
+    const double score = result.measured.score;
+    if (!std::isfinite(score)) {
+      result = {.failure = "the score is not finite"};
+      // The coordinator would refuse the whole message (proto/wire.cpp).
+    } else if (is_too_large(score)) {
+      result = {.failure = "the score is beyond 1e300"};
+    }
     // An exception that leaves a thread would end the process, and with it the evaluations of all
     // slots.
   } catch (const std::exception& error) {

@@ -166,7 +166,8 @@ void WorkerProtocol::handle(const pb::ToWorker& message, TimePoint now) {
 }
 
 void WorkerProtocol::on_reject(const pb::Reject& reject) {
-  leave(WorkerExit::Refused, reject.sentence());
+  const bool for_now = reject.reason() == pb::Reject::REASON_LIMIT;
+  leave(for_now ? WorkerExit::NoPlace : WorkerExit::Refused, reject.sentence());
 }
 
 void WorkerProtocol::on_welcome(const pb::Welcome& welcome, TimePoint now) {

@@ -22,7 +22,9 @@ enum class WorkerExit : int {
   Done = 0,  ///< drained: everything was reported or returned
   Usage = 2,
   Unreachable = 5,    ///< no coordinator for ten minutes
-  Refused = 7,        ///< the coordinator refuses this build: a restart does not help
+  Refused = 7,        ///< the coordinator refuses this build, or this worker cannot run the
+                      ///< campaign: a restart does not help
+  NoPlace = 8,        ///< there are enough workers, or its key is in quarantine: later it may do
   Interrupted = 143,  ///< a second SIGTERM
 };
 

@@ -20,8 +20,9 @@ constexpr Duration kLongestPause = std::chrono::seconds(10);
 constexpr Duration kEndGrace = std::chrono::seconds(2);
 /// Of the same worker, in a row.
 constexpr int kMostFailures = 5;
-/// The exit code of swarmsmith-worker if the coordinator refuses it.
+/// The exit codes of swarmsmith-worker if it cannot work here (WorkerExit).
 constexpr int kRefused = 7;
+constexpr int kNoPlace = 8;
 
 }  // namespace
 
@@ -73,9 +74,10 @@ Expected<void> LocalWorkers::launch(Worker& worker, TimePoint now) {
 }
 
 void LocalWorkers::on_ended(Worker& worker, int status, TimePoint now) {
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused) {
-    trouble_ =
-        "the coordinator refuses its own workers (" + command_.front() + " is of another build)";
+  const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (exit_code == kRefused || exit_code == kNoPlace) {
+    trouble_ = "the coordinator's own workers were refused (" + command_.front() + ", exit code " +
+               std::to_string(exit_code) + "); the worker's last line says why";
   }
   const bool lived = now - worker.started >= kShortLife;
   // A worker that is killed had an accident; one that keeps ending without a signal has failed,
@@ -83,10 +85,10 @@ void LocalWorkers::on_ended(Worker& worker, int status, TimePoint now) {
   const bool failed = WIFEXITED(status) && !lived;
   worker.failures = failed ? worker.failures + 1 : 0;
   if (worker.failures >= kMostFailures && trouble_.empty()) {
-    const int code = WEXITSTATUS(status);
-    trouble_ = "workers end as soon as they are started (" + command_.front() + ", exit code " +
-               std::to_string(code) + "); " +
-               (code == 0 ? "is it swarmsmith-worker?" : "install it again, or read its output");
+    trouble_ =
+        "workers end as soon as they are started (" + command_.front() + ", exit code " +
+        std::to_string(exit_code) + "); " +
+        (exit_code == 0 ? "is it swarmsmith-worker?" : "install it again, or read its output");
   }
   if (lived) worker.backoff.reset();
   worker.start_at = lived ? now : now + worker.backoff.next();

@@ -116,7 +116,8 @@ void SlurmJobs::count(const std::vector<QueuedJob>& jobs, TimePoint now) {
   note_life(jobs, now);
   std::map<std::string, std::int64_t> reasons;
   std::int64_t cancelled = 0;
-  std::int64_t replaceable = 0;
+  // Jobs that ended before, and whose replacements wait for their time or were refused.
+  std::int64_t replaceable = std::max<std::int64_t>(0, wanted_ - running_ - pending_ - leaving_);
   running_ = pending_ = leaving_ = 0;
   std::map<std::string, std::string> states;
   for (const QueuedJob& job : jobs) {

@@ -25,10 +25,11 @@ constexpr int kFewLogins = 3;
 constexpr int kMostLogins = 9;
 /// A login that takes longer, because the host does not answer, no longer counts as under way.
 constexpr Duration kLoginTime = std::chrono::seconds(12);
-constexpr int kBuildRefused = 7;  // of swarmsmith-worker: it is another build
-constexpr int kCannotRun = 126;   // of the host's shell: the program cannot be executed
-constexpr int kNoProgram = 127;   // of the host's shell: there is no such program
-constexpr int kSshFailed = 255;   // of ssh itself
+constexpr int kWorkerRefused = 7;  // of swarmsmith-worker, as the next one (WorkerExit)
+constexpr int kFindsNoPlace = 8;   // as many workers as there may be, or quarantine
+constexpr int kCannotRun = 126;    // of the host's shell: the program cannot be executed
+constexpr int kNoProgram = 127;    // of the host's shell: there is no such program
+constexpr int kSshFailed = 255;    // of ssh itself
 
 bool is_sent_to(const SshWorkersOptions& options, const SshHost& host) {
   return !options.bundles.empty() && host.program.empty();
@@ -59,10 +60,10 @@ std::string reason(int status, const std::string& said, bool sent) {
   switch (WEXITSTATUS(status)) {
     case 0:
       return "the worker was drained";
-    case kBuildRefused:
-      return sent ? "bundle and coordinator are different builds (`./dev bundle` makes it again)"
-                  : "the worker there and the coordinator are different builds; it is not started "
-                    "again";
+    case kWorkerRefused:
+      return "the worker there was refused, and is not started again" + words;
+    case kFindsNoPlace:
+      return "the coordinator has no place for the worker there" + words;
     case kCannotRun:
       if (!sent) break;
       return "the worker cannot be run there; if its folder is mounted noexec, set XDG_CACHE_HOME "
@@ -224,7 +225,7 @@ void SshWorkers::on_ended(Worker& worker, int status, TimePoint now) {
   // handful of hosts: ssh").
   if (!worker.begun) most_logins_ = kFewLogins;
   worker.trouble = reason(status, worker.said, ships);
-  worker.refused = code == kBuildRefused;
+  worker.refused = code == kWorkerRefused;
   // A worker exits normally only when it is asked to.
   const bool quick = code == 0 && now - worker.started < kShortConnection;
   worker.quick_ends = quick ? worker.quick_ends + 1 : 0;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 #include <algorithm>
 #include <ctime>
+#include <ranges>
 
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
@@ -52,7 +53,8 @@ std::string text_of(const CoordinatorFile& coordinator) {
       "# swarmsmith worker --coordinator THIS_FILE\nformat = 1\n";
   text += line("endpoint", quoted_text(coordinator.endpoint));
   std::string others;
-  for (const std::string& endpoint : coordinator.others)
+  // No more than readers take.
+  for (const std::string& endpoint : coordinator.others | std::views::take(kMostOthers))
     others += (others.empty() ? "" : ", ") + quoted_text(endpoint);
   if (!others.empty()) text += line("others", "[" + others + "]");
   if (!coordinator.public_key.empty()) text += line("key", quoted_text(coordinator.public_key));

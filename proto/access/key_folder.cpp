@@ -1,6 +1,8 @@
 #include "proto/access/key_folder.h"
 
+#include <fcntl.h>
 #include <pwd.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
@@ -42,6 +44,25 @@ std::filesystem::path home() {
   return user != nullptr ? user->pw_dir : "/";
 }
 
+/// Keeps other processes that add clients waiting until the destructor. A folder without locks, or
+/// that cannot be read, is not locked: reading its files then gives the error.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder)
+      : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ~FolderLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 ClientKeyFile new_key(const std::string& name, Role role, const std::string& server_key) {
   return {.name = name, .role = role, .pair = make_key_pair(), .server_key = server_key};
 }
@@ -53,7 +74,12 @@ AllowedClient entry_of(const ClientKeyFile& key) {
           .expires = std::nullopt};
 }
 
-Expected<void> make_folder(const std::filesystem::path& folder) {
+Expected<void> make_folder(std::filesystem::path folder) {
+  // "keys/" and "keys/." have "keys" as their parent, which would get the usual mode.
+  while (folder.has_parent_path() && folder.has_relative_path() &&
+         (!folder.has_filename() || folder.filename() == ".")) {
+    folder = folder.parent_path();
+  }
   std::error_code trouble;
   if (folder.has_parent_path()) std::filesystem::create_directories(folder.parent_path(), trouble);
   if (::mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST) {
@@ -107,7 +133,12 @@ Expected<std::vector<std::filesystem::path>> make_key_folder(const KeyFolder& fo
   }
   std::vector<std::filesystem::path> made;
   for (const auto& [file, text] : files) {
-    if (auto written = write_new_file(file, text); !written) return Unexpected(written.error());
+    if (auto written = write_new_file(file, text); !written) {
+      // Otherwise the next call would find keys that belong to no list.
+      for (const std::filesystem::path& other : made)
+        ::unlink(other.c_str());
+      return Unexpected(written.error());
+    }
     made.push_back(file);
   }
   return made;
@@ -119,6 +150,8 @@ Expected<std::filesystem::path> add_client(const KeyFolder& folder, const NewCli
         "a client's name must consist of at most 64 letters, digits, \".\", \"_\" and \"-\"",
         client.name);
   }
+  // From reading the list until it is replaced.
+  const FolderLock lock(folder.path);
   Expected<KeyPair> server = read_server_key(folder.server_key());
   if (!server) {
     Error error = server.error();
@@ -143,7 +176,12 @@ Expected<std::filesystem::path> add_client(const KeyFolder& folder, const NewCli
   // The key file first: a key that is not in the list admits no client.
   const std::filesystem::path file = folder.client_key(client.name);
   if (auto written = write_new_file(file, text_of(key)); !written) {
-    return Unexpected(written.error());
+    Error error = written.error();
+    if (error.kind == ErrorKind::Conflict) {
+      error.message +=
+          "; this one is not in clients.toml: delete it, or choose another name for the client";
+    }
+    return Unexpected(std::move(error));
   }
   if (!text->empty() && text->back() != '\n') *text += '\n';
   const auto replaced = replace_file(folder.clients(), *text + "\n" + text_of(entry), 0600);

@@ -38,7 +38,8 @@ Expected<std::string> robot_name(const std::string& word) {
 std::optional<int> index_in_name(const std::string& name) {
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   const std::string_view number = std::string_view(name).substr(digits);
-  if (!is_number(number) || number_of(number) < 1) return std::nullopt;
+  if (!is_number(number) || number_of(number) < 1 || number_of(number) - 1 > kMostIndex)
+    return std::nullopt;
   return static_cast<int>(number_of(number) - 1);
 }
 

@@ -98,8 +98,8 @@ Expected<void> read_name(const RunWords& words, NodeSettings& settings) {
   const auto index = words.index ? static_cast<int>(*words.index) : index_in_name(settings.robot);
   if (!index) {
     return bad_input(
-        "the name has no number to choose the robot's random stream: give --index, "
-        "from 0, a different one for each robot",
+        "the name has no number, from 1 to 100001, to choose the robot's random stream: give "
+        "--index, from 0, a different one for each robot",
         "--robot");
   }
   settings.robot_index = *index;
@@ -283,7 +283,7 @@ CommandRun declare_robot_run(Options& options) {
                  "Unit of a turn's length");
   options.integer("--seed", words->seed, {1, 2147483647},
                   "Seed of the random numbers (default 1; `start` may give another)");
-  options.integer("--index", words->index, {0, 100000},
+  options.integer("--index", words->index, {0, kMostIndex},
                   "Index of the robot's random stream, from 0 (default: the name's number "
                   "minus 1)");
   options.choice("--lock-step", words->pace,

@@ -1,12 +1,13 @@
 #include "robot/app/transports.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
-#include <optional>
+#include <memory>
 #include <utility>
 
+#include "base/log.h"
 #include "proto/access/allow_list_file.h"
+#include "proto/access/allow_list_watch.h"
 #include "proto/access/key_file.h"
 #include "proto/access/key_folder.h"
 #include "robot/ros/ros_ends.h"
@@ -19,15 +20,24 @@ RosOptions ros_options(const TransportWords& words, const EndOptions& end) {
   return {.end = end, .remappings = words.topics};
 }
 
-Expected<std::optional<ServerKeys>> server_keys(const std::string& folder) {
-  if (folder.empty()) return std::nullopt;
+void log_faults(const std::vector<Error>& faults) {
+  for (const Error& fault : faults) {
+    log_event(LogLevel::Error, "robot", "new list of clients refused; the last one stays in use",
+              {{"reason", to_string(fault)}});
+  }
+}
+
+Expected<void> read_keys(const std::string& folder, NodeServerOptions& options) {
+  if (folder.empty()) return {};
   const KeyFolder keys{folder};
   const auto pair = read_server_key(keys.server_key());
   if (!pair) return Unexpected(pair.error());
-  const auto list = AllowListFile::open(
-      keys.clients(), std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()));
+  auto list = AllowListFile::open(keys.clients(), AllowListWatch::system_time());
   if (!list) return Unexpected(list.error().front());
-  return ServerKeys{.secret_key = pair->secret_key, .clients = list->clients()};
+  options.keys = ServerKeys{.secret_key = pair->secret_key, .clients = list->clients()};
+  auto watch = std::make_shared<AllowListWatch>(std::move(*list), log_faults);
+  options.new_clients = [watch] { return watch->take(); };
+  return {};
 }
 
 /// The addresses of the robots in the order of their names.
@@ -121,9 +131,8 @@ Expected<std::unique_ptr<RobotEnd>> open_robot_end(const TransportWords& words,
                                                    Output& output) {
   if (const auto good = check_words(words); !good) return Unexpected(good.error());
   if (words.transport == "ros") return ros_robot_end(name, ros_options(words, end));
-  auto keys = server_keys(words.keys);
-  if (!keys) return Unexpected(keys.error());
-  NodeServerOptions options{.end = end, .keys = std::move(*keys)};
+  NodeServerOptions options{.end = end};
+  if (const auto read = read_keys(words.keys, options); !read) return Unexpected(read.error());
   options.endpoint = words.bind.empty() ? "tcp://127.0.0.1:5570" : words.bind;
   auto server = zmq_robot_end(name, std::move(options));
   if (!server) return Unexpected(server.error());

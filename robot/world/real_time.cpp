@@ -44,7 +44,13 @@ class Laboratory final : public Decider {
     waits_ = false;
     zero_ = zero;
   }
-  std::optional<TimePoint> start() const { return start_; }
+  /// Of the run for which nodes are armed: the last one, if a node still runs an earlier one.
+  std::optional<TimePoint> start() const {
+    std::optional<TimePoint> last;
+    for (const Robot& robot : robots_)
+      last = std::max(last, robot.start);  // no start is before all others
+    return last;
+  }
 
   bool wants_every_step() const override { return true; }
 
@@ -52,7 +58,7 @@ class Laboratory final : public Decider {
   void begin(double time_s) override {
     time_s_ = time_s;
     const TimePoint due = zero_ + duration_of(time_s);
-    if (waits_ && start_ && due >= *start_) throw Broken(std::nullopt);
+    if (const auto at = start(); waits_ && at && due >= *at) throw Broken(std::nullopt);
     if (options_->is_over()) throw Broken(Error{ErrorKind::Unavailable, "stopped", {}});
     while (const auto received = end_->receive(due))
       hear(*received);
@@ -114,6 +120,7 @@ class Laboratory final : public Decider {
     std::optional<FaultySensors> faults;
     bool was_silent = true;
     bool had_rivals = false;
+    std::optional<TimePoint> start;  ///< of the run, while its node is armed or runs
   };
 
   static std::int64_t stamp_now() {
@@ -134,7 +141,8 @@ class Laboratory final : public Decider {
                           },
                           [&](const StateMessage& state) {
                             if (!waits_ || !options_->start_of) return;
-                            if (const auto start = options_->start_of(state)) start_ = start;
+                            // None where the operator ended the run before its start.
+                            robots_[received.robot].start = options_->start_of(state);
                           },
                           [&](const TroubleMessage& trouble) {
                             if (trouble.ended)
@@ -151,7 +159,6 @@ class Laboratory final : public Decider {
   std::vector<Robot> robots_;
   bool waits_ = false;
   TimePoint zero_{};
-  std::optional<TimePoint> start_;  ///< of the run, once it is known
   double time_s_ = 0;
   TimePoint now_{};
   Duration latest_{};

@@ -84,10 +84,11 @@ std::vector<std::string> topics_of(const SensorTopics& sensors) {
 class ServingEnd final : public RobotEnd {
  public:
   ServingEnd(std::unique_ptr<ServerSocket> socket, const std::string& name,
-             const EndOptions& options)
-      : keep_(options.keep),
-        hello_(topics_of(options.sensors)),
-        inbox_(options.keep),
+             NodeServerOptions options)
+      : keep_(options.end.keep),
+        new_clients_(std::move(options.new_clients)),
+        hello_(topics_of(options.end.sensors)),
+        inbox_(options.end.keep),
         socket_(std::move(socket)) {
     hello_.insert(hello_.begin(), name);
     thread_ = std::thread([this] { run(); });
@@ -124,6 +125,8 @@ class ServingEnd final : public RobotEnd {
       const bool last = ends_;
       socket_->wait(outbox_.wakeup(), last ? std::chrono::milliseconds(0) : kLook);
       outbox_.wakeup().clear();
+      // Before the frames are taken: clients that are removed now have no rights any more.
+      admit_new_clients();
       ServerSocket::Received received;
       while (socket_->receive(received))
         hear(received);
@@ -134,6 +137,15 @@ class ServingEnd final : public RobotEnd {
       sending_ = false;
       if (last) return;
     }
+  }
+
+  void admit_new_clients() {
+    if (!new_clients_) return;
+    auto clients = new_clients_();
+    if (!clients) return;
+    for (const PeerId cut : socket_->admit(std::move(*clients)))
+      peers_.erase(cut);
+    keep_drivers();
   }
 
   void hear(const ServerSocket::Received& received) {
@@ -235,6 +247,7 @@ class ServingEnd final : public RobotEnd {
   }
 
   Keep keep_;
+  std::function<std::optional<std::vector<ListedClient>>()> new_clients_;
   std::vector<std::string> hello_;
   Inbox<ToRobot> inbox_;
   Outbox outbox_;
@@ -474,7 +487,7 @@ Expected<NodeServer> zmq_robot_end(const std::string& name, NodeServerOptions op
   auto socket = ServerSocket::bind(options.endpoint, socket_options, std::move(options.keys));
   if (!socket) return tl::unexpected(socket.error());
   NodeServer server{.end = nullptr, .endpoint = (*socket)->endpoint()};
-  server.end = std::make_unique<ServingEnd>(std::move(*socket), name, options.end);
+  server.end = std::make_unique<ServingEnd>(std::move(*socket), name, std::move(options));
   return server;
 }
 

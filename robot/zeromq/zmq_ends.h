@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,9 @@ struct NodeServerOptions {
   EndOptions end{};
   std::string endpoint = "tcp://127.0.0.1:*";
   std::optional<ServerKeys> keys{};
+  /// If set, called several times a second by the end's thread: the new list of clients, if it has
+  /// changed. Clients that are no longer in it are disconnected.
+  std::function<std::optional<std::vector<ListedClient>>()> new_clients{};
 };
 
 /// A node's end, with the actual address at which it listens.

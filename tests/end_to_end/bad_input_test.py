@@ -455,7 +455,7 @@ class BadPeers(BadInput):
                               env={**os.environ, "SWARMSMITH_WORKER": str(program)})
 
     def test_local_workers_that_cannot_work(self):
-        for code, sentence in ((7, "is of another build"), (1, "as soon as they are started"),
+        for code, sentence in ((7, "own workers were refused"), (8, "exit code 8"), (1, "as soon as they are started"),
                                (0, "is it swarmsmith-worker?")):
             done = self.local_worker(code)
             self.assertEqual(done.returncode, 5, done.stderr)

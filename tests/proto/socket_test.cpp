@@ -5,8 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <functional>
+#include <string>
 #include <thread>
 
+#include "base/peer_user.h"
 #include "proto/wire.h"
 #include "tests/support/checks.h"
 #include "tests/support/eventually.h"
@@ -174,6 +176,29 @@ TEST(SocketAddresses, ThatCannotBeUsedAreNamed) {
   EXPECT_THAT(portless.trouble(), HasSubstr("no address to connect to"));
   const Error server = why_not(ServerSocket::bind("tcp://[fe80::1]:*"));
   EXPECT_THAT(server.message, HasSubstr("%eth0"));
+}
+
+/// A client of root gets the reason, too.
+TEST(SocketUsers, AClientSaysThatAnotherUserListens) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
+  sockaddr_in address = {};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  ASSERT_EQ(seteuid(65534), 0);
+  const int other = socket(AF_INET, SOCK_STREAM, 0);
+  ASSERT_EQ(seteuid(0), 0);
+  ASSERT_EQ(bind(other, reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_EQ(listen(other, 5), 0);
+  ASSERT_EQ(getsockname(other, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  const int port = ntohs(address.sin_port);
+  if (user_who_listens("127.0.0.1", port) != 65534U)
+    GTEST_SKIP() << "this system does not say whose a port is";
+  ClientSocket client("tcp://127.0.0.1:" + std::to_string(port));
+  client.connect();
+  EXPECT_TRUE(client.lost());
+  EXPECT_THAT(client.trouble(), HasSubstr("belongs to another user of this host"));
+  close(other);
 }
 
 /// Another user of this host: the kernel says who connects.

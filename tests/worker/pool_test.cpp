@@ -21,6 +21,8 @@ Expected<Evaluator> make_obedient(const std::string& scenario) {
     if (item.machine == "error") return Result{.failure = "an error"};
     if (item.machine == "nan")
       return Result{.measured = {.score = std::numeric_limits<double>::quiet_NaN()}};
+    if (item.machine == "large") return Result{.measured = {.score = -1.01e300}};
+    if (item.machine == "largest") return Result{.measured = {.score = -1e300}};
     return Result{.measured = {.score = static_cast<double>(item.seed) * 2, .state_digest = 9}};
   });
 }
@@ -72,6 +74,19 @@ TEST_F(Pools, TurnTroubleIntoFailures) {
     pool.run(items(1, machine));
     EXPECT_EQ(wait_for(pool, 1).at(1).failure, text);
   }
+}
+
+/// The coordinator refuses the whole message with such a score, and the worker would send it again
+/// for ever.
+TEST_F(Pools, TurnScoresThatCannotBeSentIntoFailures) {
+  Pool pool(1, make_obedient, [this] { woken.release(); });
+  ASSERT_TRUE(pool.use("fine"));
+  pool.run(items(1, "large"));
+  const Result large = wait_for(pool, 1).at(1);
+  EXPECT_EQ(large.failure, "the score is beyond 1e300");
+  EXPECT_EQ(large.measured.score, 0);
+  pool.run(items(1, "largest"));
+  EXPECT_EQ(wait_for(pool, 1).at(1).failure, "");
 }
 
 TEST_F(Pools, GiveBackWhatIsNotStarted) {

@@ -348,6 +348,17 @@ TEST_F(Protocol, LeavesWithItsOwnCodeWhenItIsRefused) {
   EXPECT_EQ(left->reason, "another build");
 }
 
+/// A launcher may then try again later.
+TEST_F(Protocol, LeavesWithAnotherCodeWhenThereIsNoPlaceForIt) {
+  pb::ToWorker reject;
+  reject.mutable_reject()->set_reason(pb::Reject::REASON_LIMIT);
+  reject.mutable_reject()->set_sentence("there are 5 workers already, the limit");
+  hear(reject);
+  ASSERT_TRUE(left);
+  EXPECT_EQ(static_cast<int>(left->code), 8);
+  EXPECT_EQ(left->reason, "there are 5 workers already, the limit");
+}
+
 TEST_F(Protocol, LeavesWhenTheCoordinatorSpeaksAnotherVersion) {
   std::string frame = encode(pb::ToWorker());
   frame[4] = 9;

@@ -41,11 +41,15 @@ namespace {
 
 // The only data that signal handlers use.
 std::atomic<bool> g_drain{false};
+std::atomic<bool> g_interrupted{false};
 std::atomic<bool> g_out_of_time{false};
 Wakeup* g_wakeup = nullptr;
 
 void on_signal(int) {
-  if (g_drain.exchange(true)) std::_Exit(static_cast<int>(WorkerExit::Interrupted));
+  // Not `g_drain`, which the end of the input and the processor's limit set, too: after them, too,
+  // the first signal lets the worker return its tasks.
+  if (g_interrupted.exchange(true)) std::_Exit(static_cast<int>(WorkerExit::Interrupted));
+  g_drain = true;
   if (g_wakeup != nullptr) g_wakeup->notify();
 }
 
@@ -237,7 +241,7 @@ int run_command_line(int argc, char** argv) {
   CLI::App app{
       "Evaluates control software for the coordinator of a campaign.\n"
       "Exit codes: 0 drained, 2 usage, 5 no coordinator for ten minutes, 7 refused by the "
-      "coordinator\n(another build), 143 interrupted twice. SIGTERM drains."};
+      "coordinator\n(another build), 8 no place for it, 143 interrupted twice. SIGTERM drains."};
   app.name("swarmsmith-worker");
   CLI::Option_group* where = app.add_option_group("Address of the coordinator, one of");
   where->add_option("--connect", arguments.connect, "Address of the coordinator")

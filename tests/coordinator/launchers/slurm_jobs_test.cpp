@@ -143,6 +143,22 @@ TEST_F(SlurmQueue, ACancelledJobBesidesAFailedOneLeavesThatOneToBeReplaced) {
   EXPECT_EQ(jobs.status().wanted, 3);
 }
 
+/// The replacement of a job that ended before waits for its time.
+TEST_F(SlurmQueue, ACancelledJobDoesNotEndTheReplacementOfAnEarlierOne) {
+  step();
+  set_all("RUNNING");
+  run_for(seconds(1));
+  EXPECT_EQ(jobs.status().wanted, 4);
+  jobs.on_queue(queue, now);
+  set(0, "TIMEOUT");
+  jobs.on_queue(queue, now);
+  set(1, "CANCELLED");
+  jobs.on_queue(queue, now);
+  EXPECT_EQ(jobs.status().wanted, 3);
+  EXPECT_EQ(run_for(minutes(20)), 1);
+  EXPECT_EQ(jobs.status().wanted, 3);
+}
+
 TEST_F(SlurmQueue, JobsSubmittedByHandCountAndAreNotCancelled) {
   step();
   for (int i = 0; i < 3; ++i)

@@ -108,24 +108,37 @@ TEST_F(Ssh, AHostThatDoesNotAnswerIsTriedAgainAndNamed) {
   EXPECT_EQ(trouble_of(workers), "");
 }
 
-TEST_F(Ssh, AHostOfAnotherBuildIsLeftAlone) {
+TEST_F(Ssh, AHostWhoseWorkerIsRefusedIsLeftAloneAndSaysWhatTheWorkerSaid) {
   const std::string log = (folder / "log").string();
-  SshWorkers workers =
-      start("echo x >>" + log + "\ntest $host = old && exit 7\n" + kConnected + "exec cat\n",
-            {{"old"}, {"new"}});
+  SshWorkers workers = start(
+      "echo x >>" + log + "\ntest $host = old && echo 'no target program /a' >&2 && exit 7\n" +
+          kConnected + "exec cat\n",
+      {{"old"}, {"new"}});
   ASSERT_TRUE(eventually(workers, [&] {
     return workers.status().running == 1 && starts() == 2 && !workers.status().note.empty();
   }));
-  EXPECT_THAT(workers.status().note,
-              HasSubstr("old: the worker there and the coordinator are different builds"));
+  EXPECT_THAT(workers.status().note, HasSubstr("old: the worker there was refused"));
+  EXPECT_THAT(workers.status().note, HasSubstr(": no target program /a"));
+  EXPECT_THAT(workers.status().note, Not(HasSubstr("build")));
   EXPECT_EQ(trouble_of(workers), "");
 }
 
 TEST_F(Ssh, WhenAllAreRefusedNothingCanBeHad) {
-  SshWorkers workers = start("exit 7\n", {{"a"}, {"b"}});
+  SshWorkers workers = start("echo 'another build' >&2\nexit 7\n", {{"a"}, {"b"}});
   ASSERT_TRUE(eventually(workers, [&] { return !trouble_of(workers).empty(); }));
-  EXPECT_THAT(trouble_of(workers),
-              HasSubstr("ssh: a: the worker there and the coordinator are different builds"));
+  EXPECT_THAT(trouble_of(workers), HasSubstr("ssh: a: the worker there was refused"));
+  EXPECT_THAT(trouble_of(workers), HasSubstr("another build"));
+}
+
+/// Another worker may leave, and a quarantine may end.
+TEST_F(Ssh, AHostWhoseWorkerFindsNoPlaceIsTriedAgain) {
+  const std::string log = (folder / "log").string();
+  SshWorkers workers =
+      start("echo x >>" + log + "\necho 'there are 5 workers already' >&2\nexit 8\n", {{"a"}});
+  ASSERT_TRUE(eventually(workers, [&] { return starts() >= 3; }));
+  EXPECT_EQ(trouble_of(workers), "");
+  EXPECT_THAT(workers.status().note, HasSubstr("a: the coordinator has no place for the worker"));
+  EXPECT_THAT(workers.status().note, HasSubstr(": there are 5 workers already"));
 }
 
 TEST_F(Ssh, AProgramThatEndsAtOnceWithoutAnErrorIsNoWorker) {

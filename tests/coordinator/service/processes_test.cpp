@@ -110,6 +110,29 @@ TEST_F(Processes, DrainWithExitCodeZeroOnSigterm) {
   EXPECT_EQ(end.how, ServiceEnd::How::Interrupted);
 }
 
+/// A batch system sends SIGTERM to a job that has used up its processor time: the first signal of a
+/// person or a batch system is not the second.
+TEST_F(Processes, DrainAfterTheProcessorLimitThoughSigtermFollows) {
+  open(1'000'000, 1200);
+  std::jthread loop = run();
+  LocalWorkersOptions options = local(1);
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(options.program.c_str(), options.program.c_str(), "--connect", options.endpoint.c_str(),
+          "--slots", "1", "--die-with-parent", nullptr);
+    _exit(99);
+  }
+  ASSERT_TRUE(eventually([&] { return leased.load() > 0; }));
+  kill(child, SIGXCPU);
+  kill(child, SIGTERM);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 128 + SIGXCPU);
+  EXPECT_TRUE(eventually([&] { return workers.load() == 0 && leased.load() == 0; }));
+  stop(loop);
+}
+
 /// The referee as a real process.
 class Referees : public ::testing::Test {
  protected:

@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 #include <fstream>
+#include <string>
 
 #include "proto/curve.h"
 #include "tests/support/checks.h"
@@ -50,6 +51,16 @@ TEST(CoordinatorFiles, SayWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint_about("format = 1\nendpoint = \"tcp://a:1\"\nothers = [\"10.0.0.1\"]\n"),
               HasSubstr("c.db.coordinator:3:10: `others` must be"));
   EXPECT_THAT(complaint_about("format = 2\nendpoint = \"tcp://a:1\"\n"), HasSubstr("newer"));
+}
+
+/// Of a host with many addresses: the file has as many of them as its readers take.
+TEST(CoordinatorFiles, OfHostsWithManyAddressesCanBeRead) {
+  CoordinatorFile file = example();
+  for (int i = 1; i <= 100; ++i)
+    file.others.push_back("tcp://10.0.0." + std::to_string(i) + ":5555");
+  const auto read = value_of(parse_coordinator_file(text_of(file), "f"));
+  ASSERT_EQ(read.others.size(), 64U);
+  EXPECT_EQ(read.others.front(), "tcp://10.0.0.1:5555");
 }
 
 TEST(CoordinatorFiles, MayHaveKeysOfNewerVersions) {

@@ -1,9 +1,16 @@
 #include "proto/access/key_folder.h"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <latch>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "proto/access/allow_list_file.h"
 #include "proto/access/key_file.h"
@@ -143,9 +150,68 @@ TEST_F(Keys, OfServerAndClientsAreToldApart) {
 
 TEST_F(Keys, ThatAreMissingAreNamed) {
   EXPECT_THAT(refusal(folder.client_key("absent")), HasSubstr("absent.key"));
-  EXPECT_THAT(
-      complaint_of(add_client({temporary / "other"}, {.name = "a", .role = {}, .expires = {}})),
-      HasSubstr("swarmsmith keygen"));
+  EXPECT_THAT(complaint_of(add_client({temporary / "other"},
+                                      {.name = "a", .role = Role::Worker, .expires = {}})),
+              HasSubstr("swarmsmith keygen"));
+}
+
+/// Each add reads the list, and replaces it.
+TEST_F(Keys, OfClientsAreAllInTheListWhenTheyAreAddedAtOnce) {
+  std::vector<std::thread> threads;
+  std::latch all(4);
+  for (const std::string name : {"a", "b", "c", "d"}) {
+    threads.emplace_back([&, name] {
+      all.arrive_and_wait();
+      for (int i = 0; i < 50; ++i) {
+        EXPECT_TRUE(add_client(
+            folder,
+            {.name = name + std::to_string(i), .role = Role::Worker, .expires = std::nullopt}));
+      }
+    });
+  }
+  for (std::thread& thread : threads)
+    thread.join();
+  EXPECT_EQ(AllowListFile::open(folder.clients(), {})->clients().size(), 203U);
+}
+
+/// `keygen` was killed between the key and the list, or a person removed the entry.
+TEST_F(Keys, ThatAreNotInTheListAreNamedWhenTheirNameIsAddedAgain) {
+  std::ofstream(folder.client_key("node")) << "left over";
+  const Error error =
+      why_not(add_client(folder, {.name = "node", .role = Role::Worker, .expires = {}}));
+  EXPECT_EQ(error.kind, ErrorKind::Conflict);
+  EXPECT_THAT(error.message, HasSubstr("is not in clients.toml"));
+  EXPECT_THAT(error.message, HasSubstr("delete"));
+  EXPECT_EQ(whole_file(folder.client_key("node")), "left over");
+}
+
+TEST(KeyFolders, AreForTheirOwnerOnlyHoweverTheirNameIsWritten) {
+  const TemporaryFolder temporary;
+  const mode_t before = umask(0002);
+  for (const char* name : {"one/", "two/.", "three//", "four/./", "in/five/"}) {
+    const KeyFolder folder{temporary / name};
+    EXPECT_TRUE(make_key_folder(folder)) << name;
+    EXPECT_EQ(mode_of(folder.path), 0700U) << name;
+  }
+  umask(before);
+}
+
+TEST(KeyFolders, AreEmptyAgainWhenAFileCannotBeWritten) {
+  const TemporaryFolder temporary;
+  const KeyFolder folder{temporary / "keys"};
+  struct rlimit usual = {};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &usual), 0);
+  // The list is the largest of the files, and the last one.
+  const struct rlimit few = {.rlim_cur = 600, .rlim_max = usual.rlim_max};
+  std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &few), 0);
+  const auto made = make_key_folder(folder);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &usual), 0);
+  std::signal(SIGXFSZ, SIG_DFL);
+  ASSERT_FALSE(made);
+  EXPECT_THAT(to_string(made.error()), HasSubstr("clients.toml"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path));
+  EXPECT_TRUE(make_key_folder(folder));
 }
 
 TEST(KeyFolders, AreWhereTheEnvironmentSays) {

@@ -1,8 +1,11 @@
+#include <fcntl.h>
+#include <unistd.h>
 #include <fstream>
 #include <optional>
 #include <string>
 
 #include "robot/app/commands.h"
+#include "robot/app/input_end.h"
 #include "robot/app/machine_word.h"
 #include "robot/app/robot_names.h"
 #include "robot/runtime/robot_kind.h"
@@ -29,6 +32,28 @@ TEST(RobotNames, AreNumbersOrNames) {
   EXPECT_THAT(robot_names("2,leo1,4-5").value(), ElementsAre("rvr2", "leo1", "rvr4", "rvr5"));
   for (const char* wrong : {"", "3-1", "1,1", "1-3,2", "1,,2", "0-2", "1-99999"})
     EXPECT_FALSE(robot_names(wrong)) << wrong;
+}
+
+/// As `--index`, which has this limit; logs with an index of more than a million are refused.
+TEST(RobotNames, WithTooLargeANumberGiveNoIndex) {
+  EXPECT_EQ(index_in_name("rvr100001"), 100'000);
+  EXPECT_EQ(index_in_name("rvr100002"), std::nullopt);
+  EXPECT_EQ(index_in_name("rvr2000000"), std::nullopt);
+}
+
+/// `yes | swarmsmith-robot run --pipe`: the node must not read for ever.
+TEST(InputEnd, IsNotWaitedForWhileInputKeepsComing) {
+  const int usual = ::dup(STDIN_FILENO);
+  const int endless = ::open("/dev/zero", O_RDONLY);
+  ASSERT_GE(endless, 0);
+  ::dup2(endless, STDIN_FILENO);
+  EXPECT_FALSE(input_has_ended());
+  const int empty = ::open("/dev/null", O_RDONLY);
+  ::dup2(empty, STDIN_FILENO);
+  EXPECT_TRUE(input_has_ended());
+  ::dup2(usual, STDIN_FILENO);
+  for (const int descriptor : {usual, endless, empty})
+    ::close(descriptor);
 }
 
 TEST(RosWords, AreOptionsOfOurs) {

@@ -85,6 +85,25 @@ TEST(RealTime, TheRobotsWaitInTheirPlacesForTheStart) {
   EXPECT_EQ(result->start, start);
 }
 
+/// The operator pressed Ctrl-C before the start.
+TEST(RealTime, AStartThatTheNodesGiveUpIsForgotten) {
+  const Scene scene(3);
+  InProcessSwarm swarm({"rvr1"}, Keep::Newest);
+  swarm.robot(0).send(StateMessage{{}, "armed"});
+  swarm.robot(0).send(StateMessage{{}, "idle"});
+  std::optional<TimePoint> start;
+  RealTimeOptions options;
+  options.start_of = [&](const StateMessage& state) -> std::optional<TimePoint> {
+    if (state.text != "armed") return std::nullopt;
+    return start = SystemClock().now() + std::chrono::milliseconds(50);
+  };
+  options.is_over = [&] { return start && SystemClock().now() > *start + std::chrono::seconds(1); };
+  const auto result = run_in_real_time(swarm.world(), world_topics(), scene.run(), options);
+  ASSERT_TRUE(start) << "the world heard of it";
+  ASSERT_FALSE(result.has_value()) << "it began all the same";
+  EXPECT_EQ(result.error().message, "stopped");
+}
+
 TEST(RealTime, ARobotThatDrivesBeforeTheStartIsRefused) {
   const Scene scene(3);
   InProcessSwarm swarm({"rvr1"}, Keep::Newest);

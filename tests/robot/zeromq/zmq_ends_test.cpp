@@ -1,6 +1,9 @@
 #include "robot/zeromq/zmq_ends.h"
 
+#include <atomic>
+#include <optional>
 #include <thread>
+#include <vector>
 
 #include "proto/socket.h"
 #include "tests/support/checks.h"
@@ -106,6 +109,33 @@ TEST(ZmqEnds, KeysSayWhoMayDoWhat) {
   EXPECT_FALSE((*stranger)->connected(0));
   const auto said = value_of(next<TroubleMessage>(*node.end));
   EXPECT_EQ(said.text, "a client at 127.0.0.1 was refused: unlisted key");
+}
+
+TEST(ZmqEnds, KeysThatExpireOrAreRemovedLoseTheirRights) {
+  const KeyPair server = make_key_pair();
+  const KeyPair driver = make_key_pair();
+  const KeyPair boss = make_key_pair();
+  const ListedClient listed_boss{"boss", Role::Operator, boss.public_key};
+  std::atomic<bool> removed{false};
+  NodeServerOptions options;
+  options.keys = ServerKeys{.secret_key = server.secret_key,
+                            .clients = {{"driver", Role::Worker, driver.public_key}, listed_boss}};
+  options.new_clients = [&]() -> std::optional<std::vector<ListedClient>> {
+    if (!removed) return std::nullopt;
+    return std::vector{listed_boss};
+  };
+  auto node = value_of(zmq_robot_end("rvr1", options));
+  const auto with = [&](const KeyPair& pair) {
+    return NodeClientOptions{
+        .keys = ClientKeys{.secret_key = pair.secret_key, .server_key = server.public_key}};
+  };
+  auto world = zmq_world_end({{"rvr1", node.endpoint}}, with(driver));
+  auto operating = zmq_operator_end({{"rvr1", node.endpoint}}, with(boss));
+  ASSERT_TRUE(becomes([&] { return (*world)->connected(0) && (*operating)->connected(0); }));
+  ASSERT_TRUE(becomes([&] { return node.end->connected(); }));
+  removed = true;
+  EXPECT_TRUE(becomes([&] { return !(*world)->connected(0) && !node.end->connected(); }));
+  EXPECT_TRUE((*operating)->connected(0));
 }
 
 TEST(ZmqEnds, KnowWhoDrivesAndWhatItSays) {
