@@ -174,7 +174,7 @@ std::string other_engine(int stored_version, int version) {
   // A campaign with several missions has the highest of their versions.
   const bool is_same =
       stored_version == version ||
-      (version >= kEngineVersion && version < stored_version && stored_version <= kLightVersion);
+      (version >= kEngineVersion && version < stored_version && stored_version <= kVoteVersion);
   if (is_same || stored_version == 0) return "";
   return "the store's scores are of version " + std::to_string(stored_version) +
          " of the engine, this program has version " + std::to_string(version) +

@@ -458,6 +458,12 @@ class Run {
 }  // namespace
 
 int engine_version_of(const Mission& mission, const Profile& profile) {
+  const bool has_driver = profile.timing.driver_sub_steps != 0 ||
+                          std::ranges::any_of(profile.ranges, [](const FieldRange& range) {
+                            return range.field == "timing.driver";
+                          });
+  if (has_driver && mission.robot.ground.reading == GroundSensor::Reading::Vote)
+    return kVoteVersion;
   if (has_own_lights(mission.robot)) return kLightVersion;
   if (can_hide(mission.arena, mission.robot)) return kSightVersion;
   const bool meets_obstacles = profile.contacts == ContactModel::Exact &&

@@ -77,9 +77,12 @@ inline constexpr int kObstaclesVersion = 4;
 /// other; before, they saw through everything.
 inline constexpr int kSightVersion = 5;
 /// The version for missions of robots with light sensors in other directions than their proximity
-/// sensors; before, control software took them to be in the same directions. The next version for
-/// all missions is 7.
+/// sensors; before, control software took them to be in the same directions.
 inline constexpr int kLightVersion = 6;
+/// The version for robots whose ground sensors vote, under profiles with `timing.driver`; before,
+/// flavours with `any_channel` saw gray until the driver's first beat. The next version for all
+/// missions is 8.
+inline constexpr int kVoteVersion = 7;
 
 /// The version that gives the scores of the mission under this profile.
 int engine_version_of(const Mission& mission, const Profile& profile);

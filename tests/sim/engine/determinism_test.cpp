@@ -203,6 +203,13 @@ TEST(EngineVersion, IsAnotherWhereTheExactModelMeetsObstacles) {
   EXPECT_EQ(engine_version_of(bent, exact), kEngineVersion);
   // What is as high as the camera hides neighbours under both contact models.
   EXPECT_EQ(engine_version_of(mission_with_solids(), exact), kSightVersion);
+  Mission votes = open;
+  votes.robot.ground.reading = GroundSensor::Reading::Vote;
+  EXPECT_EQ(engine_version_of(votes, exact), kEngineVersion);
+  Profile with_driver{};
+  with_driver.timing.driver_sub_steps = 20;
+  EXPECT_EQ(engine_version_of(votes, with_driver), kVoteVersion);
+  EXPECT_EQ(engine_version_of(open, with_driver), kEngineVersion);
   mission.arena.obstacles.front().height_m = 0.154;
   EXPECT_EQ(engine_version_of(mission, box2d), kSightVersion);
 }
