@@ -3,7 +3,6 @@
 #include <unistd.h>
 #include <algorithm>
 #include <ctime>
-#include <ranges>
 
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
@@ -54,8 +53,9 @@ std::string text_of(const CoordinatorFile& coordinator) {
   text += line("endpoint", quoted_text(coordinator.endpoint));
   std::string others;
   // No more than readers take.
-  for (const std::string& endpoint : coordinator.others | std::views::take(kMostOthers))
-    others += (others.empty() ? "" : ", ") + quoted_text(endpoint);
+  const std::size_t count = std::min(coordinator.others.size(), kMostOthers);
+  for (std::size_t i = 0; i < count; ++i)
+    others += (others.empty() ? "" : ", ") + quoted_text(coordinator.others[i]);
   if (!others.empty()) text += line("others", "[" + others + "]");
   if (!coordinator.public_key.empty()) text += line("key", quoted_text(coordinator.public_key));
   if (coordinator.insecure_plaintext) text += line("insecure_plaintext", "true");
