@@ -337,7 +337,7 @@ class Robots(Laboratory):
 
     def test_a_tag_of_another_size(self):
         self.replace("arena.toml", "edge = 0.1\nheight", "edge = 0.12\nheight")
-        self.refused(1, self.calibrate(), "E_TAG_SIZE", "declared are 120.0 mm")
+        self.refused(1, self.calibrate(), "E_TAG_SIZE", "120.0 mm are declared")
 
     def test_a_tag_that_is_never_seen(self):
         self.replace("arena.toml", "tag = 1\n", "tag = 7\n")
@@ -353,7 +353,7 @@ class Robots(Laboratory):
                      "more than the robot's radius of 35.00 mm")
 
     def test_wrong_words(self):
-        self.refused(2, [*self.calibrate(), "--kind", "epuk"], "robot \"epuk\"", "epuck")
+        self.refused(2, [*self.calibrate(), "--kind", "epuk"], "robot `epuk`", "epuck")
         self.refused(2, self.calibrate(name="rvr9"), "no robot \"rvr9\"", "it has: rvr1")
         self.refused(2, [*self.calibrate(), "--reverse"], "--straight")
         (self.copy / "ceiling.place.toml").unlink()
