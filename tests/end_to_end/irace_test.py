@@ -676,7 +676,7 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         with sqlite3.connect(self.folder / "irace-psrace-3.db") as store:
             self.assertEqual(store.execute("SELECT budget FROM design").fetchall(), [(36,)])
         for budget in ("1.5", "-3", "0", "nan", "inf", "many", "60x"):
-            self.assertIn("--psrace-max-experiments: is a whole number", self.irace(
+            self.assertIn("--psrace-max-experiments: must be a whole number", self.irace(
                 "--psrace", "--psrace-ids", "2,5", "--psrace-max-experiments", budget, code=1).stderr, budget)
         for ids in ("3.5,2", "2,1e300", "2,nan", "2,-1", "2,", "two,2", "2,99999999999999999999"):
             self.assertIn("3,17,20", self.irace("--psrace", "--psrace-ids", ids, "--psrace-max-experiments", "30",
@@ -692,7 +692,7 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         done = self.irace("--ablation", "--ablation-csv", "ablation.csv")
         self.assertRegex(done.stdout, r"# Step 1: x: 90 -> (2|3)\d\n")
         self.assertEqual(len(self.best_lines(done.stdout)), 1)
-        rows = [line.split(",") for line in (self.folder / "ablation.csv").read_text().splitlines()]
+        rows = list(csv.reader(io.StringIO((self.folder / "ablation.csv").read_text())))
         self.assertEqual(rows[0], ["configuration", "step", "on_path", "changed", "pair", "instance", "seed", "cost"])
         self.assertEqual(len(rows) - 1, len(self.calls()) - made)
         pairs = {tuple(row[-3:-1]) for row in rows[1:]}
@@ -858,7 +858,7 @@ configuration,step,on_path,changed,pair,instance,seed,cost
         self.assertIn("irace-ablation-from1-to-last.db", self.irace("ablation", "-S", "1", "-T", "last.txt").stderr)
         self.assertIn("has 2 configurations, and --ablation-target takes one", self.irace("ablation", "-T", "two.txt", code=1).stderr)
         self.assertIn("a file with one", self.irace("ablation", "-T", "none.txt", code=1).stderr)
-        for words, advice in ((("-o", "log.Rdata"), "--ablation-csv"), (("--plot", "x.pdf"), "--ablation-csv"), (("-P", "x"), "leave it out")):
+        for words, advice in ((("-o", "log.Rdata"), "--ablation-csv"), (("--plot", "x.pdf"), "swarmsmith figure ablation"), (("-P", "x"), "leave it out")):
             self.assertIn(advice, self.irace("ablation", *words, code=1).stderr)
 
     def test_ablation_destroys_nothing_and_loses_nothing(self):
