@@ -150,7 +150,8 @@ class HostileTexts(ProgramTest):
             shutil.copyfile(self.folder / "plain.db", store)
             change(store, rows_for_empty_tables(store))
             change(store, [hostile(table, column) for column, _ in columns])
-            readers = ("status", "ls", "show", "explain", "query", "compare", "verify")
+            # Not `compare`: it reads the campaigns, and so refuses stores that others have changed.
+            readers = ("status", "ls", "show", "explain", "query", "verify")
             showed.update(words[0] for words in self.assert_all_shown(
                 words for words in invocations(store, self.file, self.folder)
                 if words[0] in readers and words[-1] != "--json"))

@@ -649,7 +649,7 @@ line("raceconfs", "one run less", "--max-experiments 95", code=1, says=r"\b96\b"
 line("raceconfs", "no more than survive", "--num-configurations 3", code=1,
      says=("--num-configurations", r"\b3\b", "minNbSurvival"))
 line("raceconfs", "more than the budget is good for", "--num-configurations 500", code=1,
-     says=("nbConfigurations|--num-configurations", r"\b500\b", r"\b16\b"))
+     says=("nbConfigurations|--num-configurations", r"\b500\b", r"\b12\b"))
 line("raceconfs", "a race of five", "--num-configurations 5 --max-experiments 300", budget=0,
      check=lambda ran: want(len(ran.calls) <= 300))
 
