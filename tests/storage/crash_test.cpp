@@ -6,7 +6,9 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
 #include <future>
+#include <memory>
 #include <thread>
 
 #include <fmt/format.h>
@@ -85,6 +87,21 @@ struct CrashTest : testing::Test {
   std::string wanted = digest_after(campaign, campaign.batches);
 };
 
+/// A store that is open on a disk that has become full.
+struct OnAFullDisk {
+  explicit OnAFullDisk(const SyntheticCampaign& campaign)
+      : store(open_store(path(), campaign, kHasty)) {
+    store->set_listener(std::ref(told));
+    disk.fail_at(1, SQLITE_FULL, 1'000'000'000);
+  }
+  std::filesystem::path path() const { return folder / "s.db"; }
+
+  TemporaryFolder folder;
+  FaultyDisk disk;
+  Told told;
+  std::unique_ptr<Store> store;
+};
+
 TEST_F(CrashTest, AnyChangeOfTheDiskMayFailAndNothingIsLost) {
   for (const int code : {SQLITE_FULL, SQLITE_IOERR_WRITE, SQLITE_IOERR_FSYNC}) {
     bool failed = true;
@@ -114,28 +131,23 @@ TEST_F(CrashTest, AnyChangeOfTheDiskMayFailAndNothingIsLost) {
 }
 
 TEST_F(CrashTest, AFlushThatTheDiskRefusesSaysSoAndTheNextOneTriesAgain) {
-  const TemporaryFolder folder;
-  FaultyDisk disk;
-  Told told;
-  auto store = open_store(folder / "s.db", campaign, kHasty);
-  store->set_listener(std::ref(told));
-  disk.fail_at(1, SQLITE_FULL, 1'000'000'000);
+  OnAFullDisk full(campaign);
   for (const auto& batch : campaign.batches)
-    store->append(batch);
-  auto flushing = std::async(std::launch::async, [&] { return store->flush(); });
+    full.store->append(batch);
+  auto flushing = std::async(std::launch::async, [&] { return full.store->flush(); });
   const bool returned = eventually(
       [&] { return flushing.wait_for(std::chrono::seconds(0)) == std::future_status::ready; });
-  EXPECT_TRUE(returned) << "it waits for room without a word";
-  EXPECT_THAT(told.trouble(), testing::HasSubstr("full")) << "it is told before";
-  disk.fail_at(1, SQLITE_OK);
+  EXPECT_TRUE(returned) << "flush() waits for room, and says nothing";
+  EXPECT_THAT(full.told.trouble(), testing::HasSubstr("full"));
+  full.disk.fail_at(1, SQLITE_OK);
   const auto flushed = flushing.get();
   if (returned) {
     EXPECT_EQ(why_not(flushed).kind, ErrorKind::Unavailable);
     EXPECT_THAT(why_not(flushed).message, testing::HasSubstr("cannot be written"));
   }
-  EXPECT_TRUE(eventually([&] { return store->flush().has_value(); }));
-  EXPECT_TRUE(told.well_again());
-  EXPECT_EQ(digest_of(folder / "s.db"), wanted);
+  EXPECT_TRUE(eventually([&] { return full.store->flush().has_value(); }));
+  EXPECT_TRUE(full.told.well_again());
+  EXPECT_EQ(digest_of(full.path()), wanted);
 }
 
 TEST_F(CrashTest, AFailureAtTheBirthOfAStoreLeavesOneThatOpens) {
@@ -189,17 +201,12 @@ TEST_F(CrashTest, APowerCutAtAnyMomentLosesNothingThatWasAcknowledged) {
 }
 
 TEST_F(CrashTest, AFullDiskIsToldAndWhatIsLeftWhenTheStoreEndsIsWhatWasTold) {
-  const TemporaryFolder folder;
-  FaultyDisk disk;
-  Told told;
-  auto store = open_store(folder / "s.db", campaign, kHasty);
-  store->set_listener(std::ref(told));
-  disk.fail_at(1, SQLITE_FULL, 1'000'000'000);
-  told.wait_for(store->append(marked(campaign.batches).front()));
-  EXPECT_THAT(told.trouble(), testing::HasSubstr("full"));
-  store.reset();
-  disk.fail_at(1, SQLITE_OK);
-  EXPECT_EQ(marks_in_order(*open_reader(folder / "s.db")), 0U);
+  OnAFullDisk full(campaign);
+  full.told.wait_for(full.store->append(marked(campaign.batches).front()));
+  EXPECT_THAT(full.told.trouble(), testing::HasSubstr("full"));
+  full.store.reset();
+  full.disk.fail_at(1, SQLITE_OK);
+  EXPECT_EQ(marks_in_order(*open_reader(full.path())), 0U);
 }
 
 /// Writes marked batches until it is killed, and tells each ticket that was acknowledged.

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <semaphore>
 #include <thread>
+#include <vector>
 
 #include "coordinator/pool/task_key.h"
 #include "coordinator/service/messages.h"
@@ -61,6 +62,23 @@ class Processes : public RunningService {
     serve_campaign(options, *campaign);
   }
 
+  /// The exit code of a worker that gets these signals once it has tasks.
+  int exit_code_after(const std::vector<int>& signals) {
+    const LocalWorkersOptions options = local(1);
+    const pid_t child = fork();
+    if (child == 0) {
+      execl(options.program.c_str(), options.program.c_str(), "--connect", options.endpoint.c_str(),
+            "--slots", "1", "--die-with-parent", nullptr);
+      _exit(99);
+    }
+    EXPECT_TRUE(eventually([&] { return leased.load() > 0; }));
+    for (const int signal : signals)
+      kill(child, signal);
+    int status = 0;
+    EXPECT_EQ(waitpid(child, &status, 0), child);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
   SchedulerOptions scheduler;
   std::unique_ptr<FlatCampaign> campaign;
 };
@@ -92,19 +110,7 @@ TEST_F(Processes, RequeueWhatAKilledWorkerHadWithoutWaitingForItsSilence) {
 TEST_F(Processes, DrainWithExitCodeZeroOnSigterm) {
   open(1'000'000, 1200);
   std::jthread loop = run();
-  LocalWorkersOptions options = local(1);
-  const pid_t child = fork();
-  if (child == 0) {
-    execl(options.program.c_str(), options.program.c_str(), "--connect", options.endpoint.c_str(),
-          "--slots", "1", "--die-with-parent", nullptr);
-    _exit(99);
-  }
-  ASSERT_TRUE(eventually([&] { return leased.load() > 0; }));
-  kill(child, SIGTERM);
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(exit_code_after({SIGTERM}), 0);
   EXPECT_TRUE(eventually([&] { return workers.load() == 0 && leased.load() == 0; }));
   stop(loop);
   EXPECT_EQ(end.how, ServiceEnd::How::Interrupted);
@@ -115,20 +121,7 @@ TEST_F(Processes, DrainWithExitCodeZeroOnSigterm) {
 TEST_F(Processes, DrainAfterTheProcessorLimitThoughSigtermFollows) {
   open(1'000'000, 1200);
   std::jthread loop = run();
-  LocalWorkersOptions options = local(1);
-  const pid_t child = fork();
-  if (child == 0) {
-    execl(options.program.c_str(), options.program.c_str(), "--connect", options.endpoint.c_str(),
-          "--slots", "1", "--die-with-parent", nullptr);
-    _exit(99);
-  }
-  ASSERT_TRUE(eventually([&] { return leased.load() > 0; }));
-  kill(child, SIGXCPU);
-  kill(child, SIGTERM);
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 128 + SIGXCPU);
+  EXPECT_EQ(exit_code_after({SIGXCPU, SIGTERM}), 128 + SIGXCPU);
   EXPECT_TRUE(eventually([&] { return workers.load() == 0 && leased.load() == 0; }));
   stop(loop);
 }

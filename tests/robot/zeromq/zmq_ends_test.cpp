@@ -78,6 +78,10 @@ TEST(ZmqEnds, WhoComesLateHearsTheLastState) {
   EXPECT_EQ(next_of<StateMessage>(**operating)->text, "{\"n\":2}");
 }
 
+NodeClientOptions with_key(const KeyPair& own, const KeyPair& server) {
+  return {.keys = ClientKeys{.secret_key = own.secret_key, .server_key = server.public_key}};
+}
+
 TEST(ZmqEnds, KeysSayWhoMayDoWhat) {
   const KeyPair server = make_key_pair();
   const KeyPair driver = make_key_pair();
@@ -87,13 +91,9 @@ TEST(ZmqEnds, KeysSayWhoMayDoWhat) {
                             .clients = {{"driver", Role::Worker, driver.public_key},
                                         {"boss", Role::Operator, boss.public_key}}};
   auto node = value_of(zmq_robot_end("rvr1", options));
-  const auto with = [&](const KeyPair& pair) {
-    return NodeClientOptions{
-        .keys = ClientKeys{.secret_key = pair.secret_key, .server_key = server.public_key}};
-  };
-  auto world = zmq_world_end({{"rvr1", node.endpoint}}, with(driver));
-  auto operating = zmq_operator_end({{"rvr1", node.endpoint}}, with(boss));
-  auto other = zmq_operator_end({{"rvr1", node.endpoint}}, with(driver));
+  auto world = zmq_world_end({{"rvr1", node.endpoint}}, with_key(driver, server));
+  auto operating = zmq_operator_end({{"rvr1", node.endpoint}}, with_key(boss, server));
+  auto other = zmq_operator_end({{"rvr1", node.endpoint}}, with_key(driver, server));
   ASSERT_TRUE(becomes([&] {
     return (*world)->connected(0) && (*operating)->connected(0) && (*other)->connected(0);
   }));
@@ -103,7 +103,7 @@ TEST(ZmqEnds, KeysSayWhoMayDoWhat) {
   (*operating)->send(OrderMessage{{}, "{\"order\":\"stop\"}"});
   EXPECT_EQ(next<OrderMessage>(*node.end)->text, "{\"order\":\"stop\"}");
 
-  auto stranger = zmq_operator_end({{"rvr1", node.endpoint}}, with(make_key_pair()));
+  auto stranger = zmq_operator_end({{"rvr1", node.endpoint}}, with_key(make_key_pair(), server));
   const auto told = value_of(next_of<TroubleMessage>(**stranger));
   EXPECT_THAT(told.text, HasSubstr("does not accept this key"));
   EXPECT_FALSE((*stranger)->connected(0));
@@ -125,12 +125,8 @@ TEST(ZmqEnds, KeysThatExpireOrAreRemovedLoseTheirRights) {
     return std::vector{listed_boss};
   };
   auto node = value_of(zmq_robot_end("rvr1", options));
-  const auto with = [&](const KeyPair& pair) {
-    return NodeClientOptions{
-        .keys = ClientKeys{.secret_key = pair.secret_key, .server_key = server.public_key}};
-  };
-  auto world = zmq_world_end({{"rvr1", node.endpoint}}, with(driver));
-  auto operating = zmq_operator_end({{"rvr1", node.endpoint}}, with(boss));
+  auto world = zmq_world_end({{"rvr1", node.endpoint}}, with_key(driver, server));
+  auto operating = zmq_operator_end({{"rvr1", node.endpoint}}, with_key(boss, server));
   ASSERT_TRUE(becomes([&] { return (*world)->connected(0) && (*operating)->connected(0); }));
   ASSERT_TRUE(becomes([&] { return node.end->connected(); }));
   removed = true;
