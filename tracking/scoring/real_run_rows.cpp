@@ -42,7 +42,7 @@ void add_calibration(const Rig& rig, const std::string& file, CalibrationKind ki
   if (found == rig.files.end()) return;
   const CalibrationFile& calibration = found->second;
   const bool is_there = std::ranges::any_of(rows.calibrations, [&](const CalibrationRow& row) {
-    return row.sha256 == calibration.sha256;
+    return row.sha256 == calibration.sha256 && row.kind == name_of(kind) && row.subject == subject;
   });
   if (is_there) return;
   rows.calibrations.push_back({calibration.sha256, std::string(name_of(kind)), subject,

@@ -266,6 +266,30 @@ TEST_F(RealRunRowsTest, HaveTheKeyOfTheirVideosAndTheirStart) {
   EXPECT_EQ(keys.size(), 3U);
 }
 
+/// One lens file for all cameras of a model, and one offset for all robots.
+TEST_F(RealRunRowsTest, HoldACalibrationForEachSubjectThatUsesIt) {
+  CameraSetup second = seen.rig.cameras.front();
+  second.name = "camera1";
+  seen.rig.cameras.push_back(second);
+  const std::string own = seen.rig.robots[1].offset_file;
+  seen.rig.files.at(own) = seen.rig.files.at(seen.rig.robots[0].offset_file);
+  const RealRunRows run = rows();
+  const auto has = [&](const std::string& kind, const std::string& subject,
+                       const std::string& file) {
+    return std::ranges::any_of(run.calibrations, [&](const CalibrationRow& row) {
+      return row.kind == kind && row.subject == subject &&
+             row.sha256 == seen.rig.files.at(file).sha256;
+    });
+  };
+  for (const char* camera : {"camera0", "camera1"}) {
+    EXPECT_TRUE(has("camera", camera, second.model_file)) << camera;
+    EXPECT_TRUE(has("place", camera, second.place_file)) << camera;
+  }
+  EXPECT_TRUE(has("offset", "rvr1", own));
+  EXPECT_TRUE(has("offset", "rvr2", own));
+  EXPECT_EQ(run.calibrations.size(), 7U);
+}
+
 TEST_F(RealRunRowsTest, SayWhenATagWasTakenForTheCentre) {
   seen.rig.offsets.erase("rvr2.offset.toml");
   seen.rig.files.erase("rvr2.offset.toml");
