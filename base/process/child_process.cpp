@@ -16,7 +16,6 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kLongestLine = 500;
-constexpr std::size_t kMostLines = 50;
 
 void close_one(int& descriptor) {
   if (descriptor >= 0) close(descriptor);
@@ -124,7 +123,8 @@ std::optional<int> ChildProcess::ended() {
   int status = 0;
   if (pid_ <= 0 || waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
   pid_ = 0;
-  last_line();
+  read_lines(true);
+  end_line(true);
   close_streams();
   return status;
 }
@@ -137,7 +137,7 @@ void ChildProcess::end_input() {
   close_one(input_);
 }
 
-const std::string& ChildProcess::last_line() {
+void ChildProcess::read_lines(bool wanted) {
   // The limit stops reading from a process that writes without end. It is more than a pipe holds,
   // so that nothing is left of a process that has ended.
   constexpr int kPiecesAtOnce = 64;
@@ -149,17 +149,26 @@ const std::string& ChildProcess::last_line() {
       const char letter = buffer[static_cast<std::size_t>(i)];
       if (letter != '\n' && letter != '\r') {
         if (line_.size() < kLongestLine) line_ += letter;
-      } else if (!line_.empty()) {
-        last_line_ = std::exchange(line_, {});
-        if (lines_.size() < kMostLines) lines_.push_back(last_line_);
+      } else {
+        end_line(wanted);
       }
     }
   }
+}
+
+void ChildProcess::end_line(bool wanted) {
+  if (line_.empty()) return;
+  last_line_ = std::exchange(line_, {});
+  if (wanted) lines_.push_back(last_line_);
+}
+
+const std::string& ChildProcess::last_line() {
+  read_lines(false);
   return last_line_;
 }
 
 std::vector<std::string> ChildProcess::take_lines() {
-  last_line();
+  read_lines(true);
   return std::exchange(lines_, {});
 }
 

@@ -43,14 +43,18 @@ class ChildProcess {
   /// Descriptors of a process with Spoken streams; -1 after its end.
   int input() const { return input_; }
   int output() const { return output_; }
-  /// The last line of its error output so far; empty for none.
+  /// The last line of its error output so far; empty for none. Drops the lines that it reads.
   const std::string& last_line();
-  /// The lines of its error output since the last call; if there are many, only the first ones.
+  /// The lines of its error output since the last call, without those that `last_line` has read.
+  /// Each has at most 500 characters.
   std::vector<std::string> take_lines();
   /// Waits for its end until `until`; after that, kills it with SIGKILL.
   void finish_by(TimePoint until);
 
  private:
+  /// Reads its error output so far, and gives each line to `lines_` if lines are wanted.
+  void read_lines(bool wanted);
+  void end_line(bool wanted);
   void close_streams();
 
   pid_t pid_ = 0;

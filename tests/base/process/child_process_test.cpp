@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <csignal>
+#include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace swarmsmith {
 namespace {
@@ -54,6 +57,22 @@ TEST(ChildProcess, MayWriteAsMuchAsItLikes) {
   ChildProcess child;
   ASSERT_TRUE(child.start({"sh", "-c", "yes | head -c 1000000 >&2; echo end >&2"}, Streams::Held));
   EXPECT_EQ(end_of(child), 0);
+  EXPECT_EQ(child.last_line(), "end");
+}
+
+TEST(ChildProcess, LosesNoLineOfManyNorALastOneWithoutAnEnd) {
+  ChildProcess child;
+  ASSERT_TRUE(child.start({"sh", "-c", "seq 1 2000; printf end"}, Streams::Held));
+  // All lines wait in the pipe.
+  std::optional<int> status;
+  const TimePoint until = SystemClock().now() + seconds(60);
+  while (!(status = child.ended()) && SystemClock().now() < until)
+    std::this_thread::yield();
+  EXPECT_EQ(status, 0);
+  const std::vector<std::string> lines = child.take_lines();
+  ASSERT_EQ(lines.size(), 2001U);
+  EXPECT_EQ(lines[1999], "2000");
+  EXPECT_EQ(lines[2000], "end");
   EXPECT_EQ(child.last_line(), "end");
 }
 

@@ -60,6 +60,17 @@ TEST_F(Ssh, WorkersRunUntilTheirInputEnds) {
   EXPECT_EQ(starts(), 2);
 }
 
+TEST_F(Ssh, ALongBannerHidesNoWordOfTheWorker) {
+  const auto all_said = folder / "all_said";
+  SshWorkers workers = start("seq 1 2000\necho swarmsmith-worker: begins\n" + kConnected +
+                                 "touch " + all_said.string() + "\ncat\n",
+                             {{"a"}});
+  ASSERT_TRUE(swarmsmith::eventually([&] { return std::filesystem::exists(all_said); },
+                                     [] { std::this_thread::yield(); }));
+  trouble_of(workers);
+  EXPECT_EQ(workers.status().running, 1);
+}
+
 /// A process that runs is not a worker yet, and one that lost its coordinator is none any more.
 TEST_F(Ssh, WorkersCountWhenTheyAreConnected) {
   const std::string log = (folder / "log").string();
