@@ -67,6 +67,12 @@ void Scheduler::on_results(const Sender& sender, std::span<const Result> results
       acknowledged.keys.push_back(result.key);
       on_failure(*entry, result, now);
     }
+    // When the tasks of a stopped campaign are forgotten, a worker's slots count as busy until it
+    // reports on those that it has. It does not report on this one again.
+    TaskRecord* record = book_->leases.find(result.key);
+    if (record != nullptr && record->lease_of(entry->number) != nullptr &&
+        book_->is_stopped(campaign_of(result.key)))
+      book_->leases.remove(result.key, entry->number);
   }
   if (!acknowledged.keys.empty()) book_->act(std::move(acknowledged));
 }

@@ -132,6 +132,52 @@ TEST_F(ProgramSchedulers, StopWithTheWholeStoryWhereTheyMustNotReject) {
   }
 }
 
+/// Two campaigns share a worker that has only reported on the first one's tasks when that one
+/// stops.
+TEST_F(ProgramSchedulers, GiveTheSlotsOfAStoppedCampaignToAnotherAtOnce) {
+  options.campaigns.resize(2);
+  options.campaigns[0].stop_on_failure = true;
+  scheduler = Scheduler(options);
+  hello(1, 2);
+  credit(1, 4);
+  want(1, 2);
+  ASSERT_EQ(given[1], (std::vector<std::int64_t>{1, 2}));
+  const std::vector<Result> both{
+      failed(1), {.key = key(2), .attempt = 1, .measured = {.score = 1, .wall_us = 3'000'000}}};
+  scheduler.on_results({1, 1, 0}, both, now);
+  take();
+  ASSERT_EQ(all<StopCampaign>().size(), 1U);
+  scheduler.forget(0);
+  std::vector<Task> others{task_of(3), task_of(4)};
+  for (Task& task : others)
+    task.campaign = 1;
+  scheduler.add(std::move(others));
+  move();
+  EXPECT_EQ(given[1], (std::vector<std::int64_t>{1, 2, 3, 4}));
+}
+
+/// The second worker's program still runs.
+TEST_F(ProgramSchedulers, KeepTheSlotsOfAStoppedCampaignWhoseProgramsRun) {
+  options.campaigns.resize(2);
+  options.campaigns[0].stop_on_failure = true;
+  scheduler = Scheduler(options);
+  hello(1, 1);
+  hello(2, 1);
+  credit(1, 4);
+  credit(2, 4);
+  want(1, 2);
+  ASSERT_EQ(given[2].size(), 1U);
+  answer(1, failed(given[1].front()));
+  scheduler.forget(0);
+  std::vector<Task> others{task_of(3), task_of(4)};
+  for (Task& task : others)
+    task.campaign = 1;
+  scheduler.add(std::move(others));
+  move();
+  EXPECT_EQ(given[1].size(), 2U);
+  EXPECT_EQ(given[2].size(), 1U);
+}
+
 TEST_F(ProgramSchedulers, TakeTheFirstOfTwoResults) {
   hello(1);
   give(1, 1);
