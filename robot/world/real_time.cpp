@@ -14,6 +14,9 @@ namespace swarmsmith {
 
 namespace {
 
+/// A node sends its state twice a second. The operator stops the others after the same silence.
+constexpr Duration kMostSilence = std::chrono::seconds(1);
+
 /// Ends the run from inside the engine: with an error, or without one because the nodes' run
 /// begins.
 struct Broken : std::exception {
@@ -51,6 +54,12 @@ class Laboratory final : public Decider {
       last = std::max(last, robot.start);  // no start is before all others
     return last;
   }
+  /// A node that was killed cannot take back its start.
+  void forget_silent(TimePoint now) {
+    for (Robot& robot : robots_) {
+      if (now - robot.heard > kMostSilence) robot.start.reset();
+    }
+  }
 
   bool wants_every_step() const override { return true; }
 
@@ -58,6 +67,7 @@ class Laboratory final : public Decider {
   void begin(double time_s) override {
     time_s_ = time_s;
     const TimePoint due = zero_ + duration_of(time_s);
+    if (waits_) forget_silent(due);
     if (const auto at = start(); waits_ && at && due >= *at) throw Broken(std::nullopt);
     if (options_->is_over()) throw Broken(Error{ErrorKind::Unavailable, "stopped", {}});
     while (const auto received = end_->receive(due))
@@ -121,6 +131,7 @@ class Laboratory final : public Decider {
     bool was_silent = true;
     bool had_rivals = false;
     std::optional<TimePoint> start;  ///< of the run, while its node is armed or runs
+    TimePoint heard;                 ///< its node's last state, before the run
   };
 
   static std::int64_t stamp_now() {
@@ -143,6 +154,7 @@ class Laboratory final : public Decider {
                             if (!waits_ || !options_->start_of) return;
                             // None where the operator ended the run before its start.
                             robots_[received.robot].start = options_->start_of(state);
+                            robots_[received.robot].heard = SystemClock().now();
                           },
                           [&](const TroubleMessage& trouble) {
                             if (trouble.ended)

@@ -104,6 +104,23 @@ TEST(RealTime, AStartThatTheNodesGiveUpIsForgotten) {
   EXPECT_EQ(result.error().message, "stopped");
 }
 
+/// Its node was killed: it sends no other state. The operator stops the others before the start.
+TEST(RealTime, TheStartOfANodeThatFellSilentIsForgotten) {
+  const Scene scene(3);
+  InProcessSwarm swarm({"rvr1"}, Keep::Newest);
+  swarm.robot(0).send(StateMessage{{}, "armed"});
+  std::optional<TimePoint> start;
+  RealTimeOptions options;
+  options.start_of = [&](const StateMessage&) -> std::optional<TimePoint> {
+    return start = SystemClock().now() + std::chrono::milliseconds(1500);
+  };
+  options.is_over = [&] { return start && SystemClock().now() > *start + std::chrono::seconds(1); };
+  const auto result = run_in_real_time(swarm.world(), world_topics(), scene.run(), options);
+  ASSERT_TRUE(start) << "the world heard of it";
+  ASSERT_FALSE(result.has_value()) << "it began all the same";
+  EXPECT_EQ(result.error().message, "stopped");
+}
+
 TEST(RealTime, ARobotThatDrivesBeforeTheStartIsRefused) {
   const Scene scene(3);
   InProcessSwarm swarm({"rvr1"}, Keep::Newest);
