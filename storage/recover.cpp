@@ -170,6 +170,7 @@ class SqliteRecovery final : public Recovery {
   }
   std::int64_t remove_others(const StoredCampaign& campaign, const DerivedRows& derived,
                              const Shift& shift);
+  std::int64_t keep_imports();
   std::string doubt();
 
   NewFile file_;
@@ -389,6 +390,21 @@ std::int64_t SqliteRecovery::replace_derived(const StoredCampaign& campaign,
   return taken;
 }
 
+/// No race makes the rows of imports again: they are kept, without their references to lost
+/// candidates. Returns the number of candidates that lost their parent.
+std::int64_t SqliteRecovery::keep_imports() {
+  if (schema_of(connection_) < 4) return 0;  // there were no imports
+  const std::string lost = "NOT IN (SELECT id FROM candidate)";
+  const std::string imported =
+      "IN (SELECT d.id FROM design AS d JOIN campaign AS c ON c.id = d.campaign"
+      " WHERE c.state = 'imported')";
+  connection_.execute("UPDATE race_step SET best = NULL WHERE best " + lost + " AND design " +
+                      imported);
+  connection_.execute("UPDATE candidate SET parent = NULL WHERE parent " + lost +
+                      " AND (id - 1) / 1000000 + 1 " + imported);
+  return connection_.changes();
+}
+
 /// Names the tables that another program changed and that no race derives again.
 std::string SqliteRecovery::doubt() {
   const bool all_derived = std::ranges::all_of(campaigns(), [&](const StoredCampaign& campaign) {
@@ -430,6 +446,7 @@ Expected<Recovery::End> SqliteRecovery::finish() {
                         "the campaign's own row is lost; name the campaign's file, so that the new "
                         "store knows the owner of these rows: `--campaign campaign.toml`");
     }
+    end.without_parent = keep_imports();
     std::int64_t before = -1;
     while (before != orphans_) {
       before = orphans_;

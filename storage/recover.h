@@ -86,6 +86,8 @@ class Recovery {
     std::string digest;
     std::int64_t evaluations = 0;  ///< number in the new store
     std::int64_t orphans = 0;      ///< rows that were left out because their parent row is lost
+    /// Candidates of imports that were kept although the candidate from which they came is lost.
+    std::int64_t without_parent = 0;
     /// The reason not to trust the scores of the new store; empty when there is none.
     std::string doubt;
   };

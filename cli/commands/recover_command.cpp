@@ -91,6 +91,7 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
                       .add("header_damaged", found.header_is_damaged)
                       .add("unplaced", found.unplaced)
                       .add("orphans", end.orphans)
+                      .add("without_parent", end.without_parent)
                       .add("changed", found.changed_evaluations)
                       .add("doubt", end.doubt)
                       .add("tables", json_list(found.tables, table_json))
@@ -119,6 +120,11 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
     output.out << counted(end.orphans, "row belongs to lost data and was",
                           "rows belong to lost data and were")
                << " left out\n";
+  }
+  if (end.without_parent > 0) {
+    output.out << counted(end.without_parent, "imported candidate lost its parent and was",
+                          "imported candidates lost their parents and were")
+               << " kept without it\n";
   }
   if (report.without) {
     output.out << counted(report.without->evaluations, "evaluation") << " of "

@@ -1,7 +1,12 @@
 #include "storage/recover.h"
 
+#include <fmt/format.h>
+
+#include <cstdint>
 #include <fstream>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "base/rng.h"
 #include "storage/internal/page_image.h"
@@ -54,10 +59,12 @@ struct RecoverTest : testing::Test {
     const auto end = (*recovery)->finish();
     EXPECT_TRUE(end) << to_string(end.error());
     doubt = end ? end->doubt : "";
+    without_parent = end ? end->without_parent : 0;
     return end ? end->digest : "";
   }
   Salvaged found;
   std::string doubt;
+  std::int64_t without_parent = 0;
 
   /// Every row of `reader` that the original has, too, and how many there are.
   std::size_t expect_no_other_rows() {
@@ -317,6 +324,58 @@ TEST_F(RecoverTest, SaysWhatCannotBe) {
   write_bytes(out, "mine");
   EXPECT_THAT(complaint_of(Recovery::begin(damaged, out)), HasSubstr("nothing is overwritten"));
   EXPECT_EQ(whole_file(out), "mine");
+}
+
+/// No race makes these rows again.
+TEST_F(RecoverTest, CandidatesOfAnImportOutliveTheirParents) {
+  const DesignId design{3};
+  const CandidateId lost = candidate_id(design, 1);
+  const CandidateId child = candidate_id(design, 2);
+  Addition addition{
+      .campaign = CampaignRow{.name = "from elsewhere", .digest = "x", .deciding = "{}"},
+      .designs = {{.row = {.id = design,
+                           .mission = "m",
+                           .method = "irace",
+                           .flavour = "watermelon",
+                           .repetition = 1},
+                   .name = "x"}},
+      .removed = {},
+      .rows = {PairRow{.design = design, .purpose = Purpose::Score, .number = 1, .seed = 5}},
+      .profiles = {}};
+  for (const CandidateId id : {lost, child}) {
+    addition.rows.emplace_back(CandidateRow{.id = id,
+                                            .iteration = id == lost ? 1 : 2,
+                                            .parent = id == lost ? CandidateId{} : lost,
+                                            .parameters = "{}",
+                                            .machine = "--nstates 1",
+                                            .modules = R"({"stop":1})",
+                                            .states = 1});
+    addition.rows.emplace_back(
+        EvaluationRow{.key = {id, Purpose::Score, 1}, .measured = {.score = 2}, .source = "real"});
+  }
+  addition.rows.emplace_back(RaceStepRow{
+      .design = design, .step = 1, .iteration = 1, .pair = 1, .evaluated = 1, .best = lost});
+  {
+    const auto store = StoreAtRest::open(damaged, StoreAtRest::IfMissing::Refuse);
+    const auto added = (*store)->add(addition);
+    ASSERT_TRUE(added) << to_string(added.error());
+  }
+  sqlite::Connection raw(damaged.string(), SQLITE_OPEN_READWRITE);
+  raw.execute(
+      fmt::format("PRAGMA foreign_keys = OFF; DELETE FROM candidate WHERE id = {}", lost.value));
+  raw = sqlite::Connection(":memory:", SQLITE_OPEN_READWRITE);
+  recovered();
+  EXPECT_EQ(without_parent, 1);
+  EXPECT_EQ(cells_of(*open_reader(out),
+                     "SELECT candidate, parent FROM v_candidates"
+                     " WHERE design = 3"),
+            (std::vector<std::vector<std::string>>{{std::to_string(child.value), "NULL"}}));
+  EXPECT_EQ(cells_of(*open_reader(out),
+                     "SELECT candidate, score FROM v_evaluations"
+                     " WHERE design = 3"),
+            (std::vector<std::vector<std::string>>{{std::to_string(child.value), "2"}}));
+  EXPECT_EQ(cells_of(*open_reader(out), "SELECT step, best FROM v_race_steps WHERE design = 3"),
+            (std::vector<std::vector<std::string>>{{"1", "NULL"}}));
 }
 
 TEST_F(RecoverTest, ACampaignOfOtherDesignsIsRefused) {
