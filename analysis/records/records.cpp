@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/ranks.h"
 #include "base/text/csv.h"
 #include "storage/stored_enums.h"
 
@@ -63,6 +67,52 @@ Expected<std::vector<Record>> read(StoreReader& store, const std::string& sql, c
         sql);
   }
   return records;
+}
+
+/// The ranks of the cells of one step, by their scores.
+void rank_cells(std::span<RaceCell> step) {
+  std::vector<double> costs;
+  for (const RaceCell& cell : step)
+    if (cell.score) costs.push_back(-*cell.score);
+  const AverageRanks ranked = average_ranks(costs);
+  std::size_t next = 0;
+  for (RaceCell& cell : step)
+    cell.rank = cell.score ? std::optional(ranked.ranks[next++]) : std::nullopt;
+}
+
+/// If a targetEvaluator gives the costs, the scores of the runs are without meaning: they are
+/// replaced, and so are their ranks. The last of its answers on a run counts.
+Expected<void> judge_cells(StoreReader& store, DesignId design, std::vector<RaceCell>& cells) {
+  const auto all = campaigns(store);
+  if (!all) return Unexpected(all.error());
+  const bool has_evaluator = std::ranges::any_of(*all, [](const CampaignRecord& campaign) {
+    return campaign.file.find("\nevaluator = \"") != std::string::npos;
+  });
+  if (!has_evaluator) return {};
+  std::map<std::pair<CandidateId, std::int64_t>, std::optional<double>> scores;
+  const auto end = store.query(
+      fmt::format("SELECT r.candidate, r.pair, v.score FROM v_evaluations AS v"
+                  " JOIN v_evaluations AS r ON r.candidate = v.candidate AND r.purpose = 'race'"
+                  " AND r.instance = v.instance AND r.seed IS v.seed"
+                  " WHERE v.design = {} AND v.purpose = 'evaluator' ORDER BY v.pair",
+                  design.value),
+      kRecordLimits, [](const std::vector<std::string>&) {},
+      [&](const Cells& row) {
+        scores[{CandidateId{row[0].integer()}, row[1].integer()}] = row[2].maybe_real();
+      });
+  if (!end) return Unexpected(end.error());
+  if (scores.empty()) return {};
+  for (RaceCell& cell : cells) {
+    const auto judged = scores.find({cell.candidate, cell.pair});
+    if (judged != scores.end()) cell.score = judged->second;
+  }
+  for (auto first = cells.begin(); first != cells.end();) {
+    const auto last = std::ranges::find_if(
+        first, cells.end(), [&](const RaceCell& cell) { return cell.step != first->step; });
+    rank_cells({first, last});
+    first = last;
+  }
+  return {};
 }
 
 }  // namespace
@@ -217,18 +267,21 @@ Expected<std::vector<ModuleFrequency>> module_frequencies(StoreReader& store,
 
 Expected<std::vector<RaceCell>> race_cells(StoreReader& store, DesignId design,
                                            std::int64_t iteration) {
-  return read<RaceCell>(
-      store,
-      fmt::format("SELECT step, pair, candidate, score, rank FROM v_race_matrix"
-                  " WHERE design = {} AND iteration = {} ORDER BY step, candidate",
-                  design.value, iteration),
-      [](const Cells& row) {
-        return RaceCell{.step = row[0].integer(),
-                        .pair = row[1].integer(),
-                        .candidate = {row[2].integer()},
-                        .score = row[3].maybe_real(),
-                        .rank = row[4].maybe_real()};
-      });
+  auto cells =
+      read<RaceCell>(store,
+                     fmt::format("SELECT step, pair, candidate, score, rank FROM v_race_matrix"
+                                 " WHERE design = {} AND iteration = {} ORDER BY step, candidate",
+                                 design.value, iteration),
+                     [](const Cells& row) {
+                       return RaceCell{.step = row[0].integer(),
+                                       .pair = row[1].integer(),
+                                       .candidate = {row[2].integer()},
+                                       .score = row[3].maybe_real(),
+                                       .rank = row[4].maybe_real()};
+                     });
+  if (!cells) return cells;
+  if (auto judged = judge_cells(store, design, *cells); !judged) return Unexpected(judged.error());
+  return cells;
 }
 
 std::string search_of(StoreReader& store, DesignId design) {

@@ -915,6 +915,17 @@ configuration,step,on_path,changed,pair,instance,seed,cost
             self.assertGreaterEqual(len(calls) - evaluated, len(costs))
             self.assertEqual(len(self.calls()) - made, len(costs))
             self.assertTrue(all(float(cost) >= 0 for cost in costs))
+            # The runs print no cost of their own: the figure has those of the evaluator, too.
+            store = {"full": "irace-ablation.db", "racing": "irace-ablation-racing.db"}[kind]
+            ended_well(call("figure", "ablation", store, "-o", "way.csv", cwd=self.folder))
+            way = {}
+            with open(self.folder / "way.csv", encoding="utf-8") as file:
+                for row in csv.DictReader(file):
+                    way.setdefault((row["step"], float(row["mean_cost"])), []).append(float(row["cost"]))
+            self.assertGreater(len(way), 1)
+            for (step, mean), of_runs in way.items():
+                self.assertGreater(max(of_runs), 0, step)
+                self.assertAlmostEqual(mean / (sum(of_runs) / len(of_runs)), 1, places=6, msg=step)
             made, evaluated = len(self.calls()), len(calls)
 
     def test_more_initial_configurations_than_a_race_has_room_for(self):

@@ -1,6 +1,12 @@
 #include "analysis/records/records.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "tests/storage/fixture.h"
 #include "tests/support/checks.h"
@@ -40,6 +46,54 @@ TEST_F(RecordsTest, ARaceHasACellForEachLivingCandidateAndStep) {
   ASSERT_FALSE(steps->empty());
   for (const StepRecord& step : *steps)
     EXPECT_EQ(std::ranges::count(*cells, step.step, &RaceCell::step), step.alive_before);
+}
+
+/// Its second answer to a call is the opposite of what the run printed; the first one is out of
+/// date.
+TEST(RaceCells, HaveTheScoresAndRanksOfATargetEvaluator) {
+  const TemporaryFolder folder;
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 1});
+  campaign.campaign.file += "\nevaluator = \"./e\"\n";
+  std::vector<Row> calls;
+  std::map<std::int64_t, PairRow> pairs;
+  std::int64_t number = 0;
+  for (const std::vector<Row>& batch : campaign.batches) {
+    for (const Row& row : batch) {
+      if (const auto* pair = std::get_if<PairRow>(&row); pair && pair->purpose == Purpose::Race)
+        pairs[pair->number] = *pair;
+    }
+  }
+  for (const std::vector<Row>& batch : campaign.batches) {
+    for (const Row& row : batch) {
+      const auto* run = std::get_if<EvaluationRow>(&row);
+      if (run == nullptr || run->key.purpose != Purpose::Race) continue;
+      for (const double factor : {7.0, -1.0}) {
+        PairRow pair = pairs.at(run->key.pair);
+        pair.purpose = Purpose::Evaluator;
+        pair.number = ++number;
+        calls.emplace_back(pair);
+        EvaluationRow call{.key = {run->key.candidate, Purpose::Evaluator, number},
+                           .measured = {.score = factor * run->measured.score},
+                           .source = "command"};
+        calls.emplace_back(std::move(call));
+      }
+    }
+  }
+  fill_store(folder / "runs.db", campaign);
+  campaign.batches.push_back(std::move(calls));
+  fill_store(folder / "judged.db", campaign);
+  const auto runs = value_of(race_cells(*open_reader(folder / "runs.db"), DesignId{1}, 1));
+  const auto judged = value_of(race_cells(*open_reader(folder / "judged.db"), DesignId{1}, 1));
+  ASSERT_EQ(judged.size(), runs.size());
+  ASSERT_GT(runs.size(), 10U);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto peers = std::ranges::count_if(
+        runs, [&](const RaceCell& cell) { return cell.step == runs[i].step && cell.rank; });
+    ASSERT_EQ(judged[i].score.has_value(), runs[i].score.has_value());
+    if (!runs[i].score) continue;
+    EXPECT_EQ(*judged[i].score, -*runs[i].score);
+    EXPECT_EQ(*judged[i].rank, static_cast<double>(peers) + 1 - *runs[i].rank);
+  }
 }
 
 TEST_F(RecordsTest, CandidatesAreInTheOrderOfSampling) {
