@@ -180,7 +180,7 @@ class MachineOperators {
     for (std::size_t i = 0; i < states_.size(); ++i) {
       if (has_room(states_[i])) sources.push_back(i);
     }
-    if (sources.empty()) return false;
+    if (sources.empty()) return insert_state();
     const std::size_t source = sources[draw(sources.size())];
     const std::size_t target = draw(states_.size());
     const auto added = static_cast<int>(states_.size());
@@ -188,6 +188,18 @@ class MachineOperators {
     states_[source].transitions.push_back({modules_.condition(), added});
     State state{modules_.behaviour(), {}};
     state.transitions.push_back({modules_.condition(), static_cast<int>(target)});
+    states_.push_back(std::move(state));
+    return true;
+  }
+
+  /// Puts a new state into a transition. With one transition a state, each state of a machine needs
+  /// its own, so no operator could make room for another one.
+  bool insert_state() {
+    const auto place = any_transition();
+    if (method_.max_transitions > 1 || !place) return false;
+    Transition& into = at(*place);
+    State state{modules_.behaviour(), {{modules_.condition(), into.target}}};
+    into.target = static_cast<int>(states_.size());
     states_.push_back(std::move(state));
     return true;
   }

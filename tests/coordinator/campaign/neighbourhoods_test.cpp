@@ -29,7 +29,7 @@ class Neighbourhoods : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(
     Kinds, Neighbourhoods,
     ::testing::Values("", "flavour = \"chocolate\"\n", "max_states = 2\nmax_transitions = 1\n",
-                      "architecture = \"tree\"\n",
+                      "max_transitions = 1\n", "architecture = \"tree\"\n",
                       "architecture = \"tree\"\nflavour = \"chocolate\"\nmax_subtrees = 2\n"));
 
 TEST_P(Neighbourhoods, LeaveAValidPointOfTheSpaceThatIsAnother) {
@@ -80,6 +80,23 @@ TEST(TreeSpace, TakesTreesBackToTheirConfigurations) {
     const Configuration drawn = sample_uniform(space.parameters(), rng).value();
     EXPECT_EQ(space.from_tree(space.to_tree(drawn)), drawn);
   }
+}
+
+/// Each state has only the transition that it needs, so none has room for a further one.
+TEST(MachineNeighbourhood, GrowsAndShrinksWithOneTransitionAState) {
+  const Walk walk("max_states = 4\nmax_transitions = 1\n");
+  const auto neighbourhood = walk.space.neighbourhood();
+  Rng rng(5);
+  Configuration now = neighbourhood->start;
+  int whole_ways = 0;  // from one state to four, and back
+  std::size_t next = 4;
+  for (int i = 0; i < 50'000; ++i) {
+    now = neighbourhood->perturb(now, rng).value();
+    if (std::get<Machine>(walk.space.controller_of(now)).states.size() != next) continue;
+    next = next == 4 ? 1 : 4;
+    ++whole_ways;
+  }
+  EXPECT_GT(whole_ways, 10);
 }
 
 /// Of two states and two modules without parameters that matter, every machine is met.
