@@ -239,10 +239,11 @@ Expected<Vector> format_texts(const Node& node, std::vector<Part> parts) {
 }
 
 /// R's seq.default: of from, to, by and the length, three give the fourth.
-Expected<Vector> sequence(const Node& node, const Arguments& given) {
+Expected<Vector> sequence(const Node& node, const std::string& name, const Arguments& given) {
   double from = given.number("from").value_or(1);
   std::optional<double> to = given.number("to");
-  const std::optional<double> count = given.number("length.out");
+  std::optional<double> count = given.number("length.out");
+  if (count && name == "seq") count = std::ceil(*count);  // seq_len cuts the fraction off
   if (given.has("from") && to && given.has("by") && count)
     return wrong(node, "seq takes three of `from`, `to`, `by` and `length.out`: leave one out");
   // seq(5) means 1 to 5.
@@ -299,7 +300,7 @@ Expected<Vector> call_scenario_function(const Node& node, const std::string& nam
   if (name == "getwd") return Vector{Scalar::of_text(environment.folder.string())};
   if (name == "readLines") return read_lines(node, *given, environment);
   if (name == "sub" || name == "gsub") return substitute(node, *given, name == "gsub");
-  if (name == "seq" || name == "seq_len") return sequence(node, *given);
+  if (name == "seq" || name == "seq_len") return sequence(node, name, *given);
   std::vector<std::string> paths = given->texts("path");
   for (std::string& path : paths) {
     if (name == "dirname") path = folder_of(path);

@@ -76,6 +76,10 @@ TEST(ScenarioFile, KnowsTheFunctionsOfRealScenarios) {
                                           {"seq(4, 1, length.out = 4)", "4, 3, 2, 1"},
                                           {"seq(length.out = 3)", "1, 2, 3"},
                                           {"seq(by = 2, length.out = 3)", "1, 3, 5"},
+                                          {"seq(1, 5, length.out = 2.5)", "1, 3, 5"},
+                                          {"seq(4, by = 2, length.out = 2.1)", "4, 6, 8"},
+                                          {"seq(to = 10, length.out = 1.5)", "9, 10"},
+                                          {"seq_len(2.5)", "1, 2"},
                                           {"seq(to = 3)", "1, 2, 3"},
                                           {"seq(3)", "1, 2, 3"},
                                           {"seq(from = 3)", "1, 2, 3"}}) {
