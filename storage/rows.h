@@ -109,6 +109,8 @@ constexpr std::int64_t number_of(CandidateId id) {
 
 /// Largest number of bytes of a name in a store (campaign, mission, method, design, source).
 inline constexpr std::int64_t kLongestName = 1000;
+/// Largest number of bytes of the reason why a design ended.
+inline constexpr std::int64_t kLongestReason = 1 << 20;
 
 struct CampaignRow {
   std::string name;

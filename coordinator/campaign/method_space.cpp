@@ -17,14 +17,15 @@ constexpr std::size_t kMostCallBytes = 1U << 20U;
 constexpr std::size_t kNumberBytes = 25;
 constexpr std::size_t kBlanks = 3;  ///< includes the dash of AClib's convention
 
-/// The bytes of switches and values if all parameters are active and have their longest values.
-std::size_t longest_call(const ParameterSpace& space) {
+/// The bytes of names, switches and values if all parameters are active and have their longest
+/// values. Names are no part of a call, but of the text that a store keeps, which has a limit, too.
+std::size_t longest_text(const ParameterSpace& space) {
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < space.size(); ++i) {
     std::size_t longest = space.is_numeric(i) ? kNumberBytes : 0;
     for (std::size_t k = 0; k < space.value_count(i); ++k)
       longest = std::max(longest, space.scalar(i, static_cast<double>(k)).text.size());
-    bytes += space[i].switch_text.size() + longest + kBlanks;
+    bytes += space[i].name.size() + space[i].switch_text.size() + longest + kBlanks;
   }
   return bytes;
 }
@@ -78,10 +79,11 @@ Expected<MethodSpace> MethodSpace::make(const Method& method, int digits, bool a
   auto parameters = parse_parameter_file({.parameters = {method.parameters, "parameters"}});
   if (!parameters) return Unexpected(parameters.error());
   made.parameters_ = std::move(parameters->space);
-  if (const std::size_t bytes = longest_call(*made.parameters_); bytes > kMostCallBytes) {
-    return bad_input("switches and values of one call can take " + std::to_string(bytes) +
-                         " bytes, and a program can get at most " + std::to_string(kMostCallBytes) +
-                         ": use fewer parameters, or shorter switches",
+  if (const std::size_t bytes = longest_text(*made.parameters_); bytes > kMostCallBytes) {
+    return bad_input("names, switches and values of one configuration can take " +
+                         std::to_string(bytes) + " bytes, and at most " +
+                         std::to_string(kMostCallBytes) +
+                         " are allowed: use fewer parameters, or shorter names and switches",
                      "parameters");
   }
   if (method.configurations.empty()) return made;

@@ -32,7 +32,8 @@ class RowRecorder {
   /// The design's current state, which later events change.
   const DesignStateRow& design() const { return design_; }
   void set_state(DesignState state) { design_.state = state; }
-  void set_reason(std::string reason) { design_.reason = std::move(reason); }
+  /// Cut at the length that a store may hold.
+  void set_reason(const std::string& reason) { design_.reason = reason.substr(0, kLongestReason); }
   void set_best(std::int64_t number) { design_.best = candidate(number); }
 
   void record_state();

@@ -197,7 +197,6 @@ std::string too_long_text(const Connection& connection) {
     std::int64_t most;
     std::int64_t schema = 1;  ///< the schema that added the column
   };
-  constexpr std::int64_t kLongestReason = 1 << 20;
   constexpr std::int64_t kLongestPhrase = 8 << 20;
   constexpr std::array kLimits{
       Limit{"name", "campaign", kLongestName},

@@ -1,8 +1,11 @@
 #include "coordinator/design/row_recorder.h"
 
 #include <cmath>
+#include <iterator>
+#include <string>
 
 #include "coordinator/design/candidate_totals.h"
+#include "storage/rows.h"
 #include "tests/support/checks.h"
 
 namespace swarmsmith {
@@ -42,6 +45,13 @@ TEST(RowRecorder, FindsAStepThatTheStoreHasOtherwise) {
   const Error recorded = why_not(recorder.record_step(step(12)));
   EXPECT_EQ(recorded.kind, ErrorKind::Corrupt);
   EXPECT_THAT(to_string(recorded), HasSubstr("d1, step 1"));
+}
+
+/// Such as two configurations that a repair program mixed up. No reader opens a store with more.
+TEST(RowRecorder, CutsAReasonThatIsTooLongForAStore) {
+  RowRecorder recorder({1}, "profile", {});
+  recorder.set_reason(std::string(kLongestReason + 1, 'x'));
+  EXPECT_EQ(std::ssize(recorder.design().reason), kLongestReason);
 }
 
 TEST(RowRecorder, GivesEachPairOfAPurposeOnce) {
