@@ -1,5 +1,14 @@
 #include "analysis/comparison/method_matrix.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "tests/analysis/comparison/scores.h"
 #include "tests/support/checks.h"
 
@@ -16,8 +25,35 @@ Table different(std::size_t count, const std::vector<std::pair<std::size_t, std:
   return table;
 }
 
-bool share_a_letter(const std::string& a, const std::string& b) {
-  return a.find_first_of(b) != std::string::npos;
+/// The letters by definition: one for each set of items of which no two differ, and to which no
+/// item can be added. In the order of the sets' items.
+std::vector<std::string> letters_by_definition(const Table& table) {
+  using Items = std::vector<std::size_t>;
+  const auto fits = [&](const Items& items, std::size_t more) {
+    return std::ranges::none_of(items, [&](std::size_t item) { return table[item][more]; });
+  };
+  std::vector<Items> sets;
+  for (std::size_t number = 1; number < std::size_t{1} << table.size(); ++number) {
+    Items items;
+    bool is_whole = true;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      if ((number >> i & 1U) == 0) continue;
+      is_whole = is_whole && fits(items, i);
+      items.push_back(i);
+    }
+    for (std::size_t i = 0; i < table.size(); ++i)
+      is_whole = is_whole && ((number >> i & 1U) != 0 || !fits(items, i));
+    if (is_whole) sets.push_back(items);
+  }
+  std::ranges::sort(sets);
+  std::vector<std::string> letters(table.size());
+  char letter = 'a';
+  for (const Items& items : sets) {
+    for (const std::size_t item : items)
+      letters[item] += letter;
+    ++letter;
+  }
+  return letters;
 }
 
 TEST(Letters, AreSharedExactlyByThoseThatDoNotDiffer) {
@@ -33,12 +69,21 @@ TEST(Letters, AreSharedExactlyByThoseThatDoNotDiffer) {
         if ((number >> bit & 1U) != 0) pairs.emplace_back(a, b);
     }
     const Table table = different(5, pairs);
-    const auto letters = letters_of(table);
-    for (std::size_t a = 0; a < 5; ++a) {
-      for (std::size_t b = 0; b < 5; ++b)
-        ASSERT_EQ(share_a_letter(letters[a], letters[b]), !table[a][b]) << number;
-    }
+    ASSERT_EQ(letters_of(table), letters_by_definition(table)) << number;
   }
+}
+
+TEST(Letters, HaveANumberAfterTheAlphabet) {
+  std::vector<std::pair<std::size_t, std::size_t>> all_pairs;
+  for (std::size_t b = 1; b < 28; ++b) {
+    for (std::size_t a = 0; a < b; ++a)
+      all_pairs.emplace_back(a, b);
+  }
+  const auto letters = letters_of(different(28, all_pairs));
+  EXPECT_EQ(letters.front(), "a");
+  EXPECT_EQ(letters[25], "z");
+  EXPECT_EQ(letters[26], "a2");
+  EXPECT_EQ(letters[27], "b2");
 }
 
 /// Three methods in two missions: `good` is far ahead of `fair` and `poor`, which are alike.
@@ -88,19 +133,6 @@ TEST(MethodMatrix, SaysWhoWinsWhereByHowMuchAndHowSure) {
   EXPECT_EQ(matrix.rows[1].cells[0]->letters, "b");
 }
 
-TEST(MethodMatrix, LeavesOpenWhatAMissionLacks) {
-  auto scores = of_three_methods();
-  std::erase_if(scores, [](const DesignScore& score) {
-    return score.mission == "grid" && score.method == "good";
-  });
-  const Comparison comparison = compare(scores, {.by = CompareBy::Method});
-  const auto matrix = method_matrices(comparison).front();
-  EXPECT_EQ(matrix.rows.back().method, "good");  // it has no mean rank
-  EXPECT_FALSE(matrix.rows.back().mean_rank);
-  EXPECT_FALSE(matrix.rows.back().cells[1]);
-  EXPECT_THAT(matrices_text(comparison), HasSubstr("good    -"));
-}
-
 // R: 2 / choose(8, 4) = 0.0286 is the least p of four against four.
 TEST(MethodMatrix, SaysWhereValuesAreTooFewForOtherLetters) {
   auto scores = of_three_methods();
@@ -116,12 +148,138 @@ TEST(MethodMatrix, SaysWhereValuesAreTooFewForOtherLetters) {
   EXPECT_THAT(comparison.pairs.front().notes, Contains(HasSubstr("a p of 0.171")));
 }
 
-TEST(MethodMatrix, OfOneMethodHasNoLetters) {
-  const auto matrices =
-      method_matrices(compare(records_of({{.design = 1, .scores = {1, 2}},
-                                          {.design = 2, .repetition = 2, .scores = {3, 4}}}),
-                              {.by = CompareBy::Method}));
-  EXPECT_THAT(matrices.front().rows.front().cells.front()->letters, IsEmpty());
+TEST(MethodMatrix, NotesAreThoseThatConcernTheLetters) {
+  const Comparison comparison =
+      compare(of_three_methods(), {.by = CompareBy::Method,
+                                   .missions = {"grid"},
+                                   .choice = {.purpose = "", .unit = ScoreUnit::Run}});
+  const std::string of_runs =
+      "runs of one design are not independent of each other: these tests overstate the certainty";
+  EXPECT_THAT(comparison.notes, ElementsAre(StartsWith("rvr: no ranks"), of_runs));
+  EXPECT_THAT(matrix_notes(comparison), ElementsAre(of_runs));
+}
+
+TEST(MethodMatrix, CountsTheTestsOfAMissionThatHaveAP) {
+  const auto notes_of = [](std::vector<Scored> designs, const std::vector<Scored>& more = {}) {
+    designs.insert(designs.end(), more.begin(), more.end());
+    return matrix_notes(
+        compare(records_of(designs),
+                {.by = CompareBy::Method, .choice = {.purpose = "", .unit = ScoreUnit::Design}}));
+  };
+  EXPECT_THAT(notes_of(two_methods({1, 2, 3, 4}, {5, 6, 7, 8})), IsEmpty());
+  EXPECT_THAT(
+      notes_of(two_methods({1, 2}, {3, 4})),
+      ElementsAre("aggregation: too few values: even the clearest difference would have a p "
+                  "of 0.333; a shared letter means nothing there"));
+  EXPECT_THAT(notes_of(two_methods({5, 5}, {5, 5})), IsEmpty()) << "no p, so no test";
+  // R: 2 / choose(21, 1) = 0.0952; the test of the two methods with equal scores has no p.
+  const std::vector<double> same(20, 5);
+  EXPECT_THAT(notes_of(two_methods(same, same), designs_of("third", {6}, 2001)),
+              ElementsAre("aggregation: too few values for 2 tests together: after the correction "
+                          "even the clearest difference would have a p of 0.19; a shared letter "
+                          "means nothing there"));
+}
+
+TEST(MethodMatrix, OfOneMissionHasRanksAndAPOfTheLevelIsNoDifference) {
+  // All 39 values are above the single one: R: wilcox.test(2:40, 1)$p.value is 0.05.
+  std::vector<double> many(39);
+  std::iota(many.begin(), many.end(), 2.0);
+  const auto matrix =
+      method_matrices(compare(records_of(two_methods({1}, many)), {.by = CompareBy::Method}))
+          .front();
+  ASSERT_EQ(matrix.rows.size(), 2U);
+  EXPECT_EQ(matrix.rows[0].method, "second");
+  EXPECT_EQ(matrix.rows[0].mean_rank, 1);
+  EXPECT_EQ(matrix.rows[1].mean_rank, 2);
+  EXPECT_EQ(matrix.rows[0].cells[0]->letters, "a");
+  EXPECT_EQ(matrix.rows[1].cells[0]->letters, "a");
+  EXPECT_EQ(matrix.rows[1].cells[0]->p_behind, 0.05);
+}
+
+/// Three methods in two missions; `good` is ahead of two that are alike, and has no scores of the
+/// grid. `fair` was also evaluated under another profile.
+Comparison of_two_profiles() {
+  std::vector<Scored> designs;
+  const auto add = [&](const std::string& mission, const std::string& method,
+                       const std::vector<double>& values) {
+    for (Scored design : designs_of(method, values, std::ssize(designs) + 1)) {
+      design.mission = mission;
+      design.scores = {design.scores[0] - 1, design.scores[0] + 1};
+      designs.push_back(design);
+    }
+  };
+  add("aggregation", "good", {980, 990, 1000, 1010, 1020});
+  add("aggregation", "fair", {1, 2, 3, 4, 5});
+  add("aggregation", "poor", {5, 4, 3, 2, 1});
+  add("grid", "fair", {6, 8});
+  add("grid", "poor", {7});
+  designs.push_back({.method = "fair", .source = "alpha", .scores = {3}, .purpose = "score"});
+  return compare(records_of(designs), {.by = CompareBy::Method});
+}
+
+// R 4.2: t.test(c(980, 990, 1000, 1010, 1020)), t.test(1:5) and t.test(c(6, 8)) give these
+// intervals, and 3 * wilcox.test(1:5, 980:984)$p.value is 0.0238.
+TEST(MethodMatrix, IsATextForEachSourceThatOfTheTestsFirst) {
+  EXPECT_EQ(matrices_text(of_two_profiles()),
+            "Scores of the designs' winners, larger is better; a value is a design: the mean of "
+            "its tests or later runs.\n"
+            "\n"
+            "rvr\n"
+            "method  mean rank  aggregation         grid\n"
+            "fair    2.00          3 +- 1.96 2.5 b  7 +- 12.7 1.5 a\n"
+            "poor    2.00          3 +- 1.96 2.5 b  7         1.5 a\n"
+            "good    -          1000 +- 19.6   1 a  -\n"
+            "\n"
+            "alpha\n"
+            "method  mean rank  aggregation\n"
+            "fair    1.00       3  1\n"
+            "\n"
+            "A cell: mean +- half its 95 % interval, rank, letters. Methods of a mission that "
+            "share a letter do\n"
+            "not differ at 5 %: Wilcoxon rank-sum tests of its pairs, with Holm's correction. Each "
+            "design is a value.\n"
+            "grid: too few values: even the clearest difference would have a p of 0.667; a shared "
+            "letter means nothing there\n");
+}
+
+TEST(MethodMatrix, IsATableOfCells) {
+  EXPECT_EQ(matrices_csv(of_two_profiles()),
+            "source,mission,method,n,runs,mean,low,high,"
+            "rank,mean_rank,letters,behind,p_behind\n"
+            "rvr,aggregation,fair,5,10,3,1.0367568385224415,4.963243161477559,"
+            "2.5,2,b,997,0.023809523809523808\n"
+            "rvr,aggregation,poor,5,10,3,1.0367568385224415,4.963243161477559,"
+            "2.5,2,b,997,0.023809523809523808\n"
+            "rvr,aggregation,good,5,10,1000,980.3675683852244,1019.6324316147756,"
+            "1,,a,0,\n"
+            "rvr,grid,fair,2,4,7,-5.706204736174632,19.706204736174634,"
+            "1.5,2,a,0,\n"
+            "rvr,grid,poor,1,2,7,,,"
+            "1.5,2,a,0,1\n"
+            "alpha,aggregation,fair,1,1,3,,,"
+            "1,1,,0,\n");
+}
+
+TEST(MethodMatrix, IsJsonOfAllCells) {
+  EXPECT_EQ(matrices_json(of_two_profiles()).text,
+            R"([{"source":"rvr","missions":["aggregation","grid"],"methods":[)"
+            R"({"method":"fair","mean_rank":2,"cells":[)"
+            R"({"n":5,"runs":10,"mean":3,"low":1.0367568385224415,"high":4.963243161477559,)"
+            R"("rank":2.5,"letters":"b","behind":997,"p_behind":0.023809523809523808},)"
+            R"({"n":2,"runs":4,"mean":7,"low":-5.706204736174632,"high":19.706204736174634,)"
+            R"("rank":1.5,"letters":"a","behind":0,"p_behind":null}]},)"
+            R"({"method":"poor","mean_rank":2,"cells":[)"
+            R"({"n":5,"runs":10,"mean":3,"low":1.0367568385224415,"high":4.963243161477559,)"
+            R"("rank":2.5,"letters":"b","behind":997,"p_behind":0.023809523809523808},)"
+            R"({"n":1,"runs":2,"mean":7,"low":null,"high":null,)"
+            R"("rank":1.5,"letters":"a","behind":0,"p_behind":1}]},)"
+            R"({"method":"good","mean_rank":null,"cells":[)"
+            R"({"n":5,"runs":10,"mean":1000,"low":980.3675683852244,"high":1019.6324316147756,)"
+            R"("rank":1,"letters":"a","behind":0,"p_behind":null},null]}]},)"
+            R"({"source":"alpha","missions":["aggregation"],"methods":[)"
+            R"({"method":"fair","mean_rank":1,"cells":[)"
+            R"({"n":1,"runs":1,"mean":3,"low":null,"high":null,)"
+            R"("rank":1,"letters":"","behind":0,"p_behind":null}]}]}])");
 }
 
 }  // namespace

@@ -54,5 +54,14 @@ TEST(Bootstrap, OtherSeedsGiveOtherResamples) {
   EXPECT_TRUE(one.low != other.low || one.high != other.high);
 }
 
+TEST(Bootstrap, TakesTheGivenNumberOfResamples) {
+  for (const auto& difference : {mean_difference, paired_mean_difference}) {
+    const MeanDifference of_one = difference(kFirst, kSecond, 1, kBootstrapSeed);
+    EXPECT_EQ(of_one.low, of_one.high);
+    const MeanDifference of_two = difference(kFirst, kSecond, 2, kBootstrapSeed);
+    EXPECT_LT(of_two.low, of_two.high);
+  }
+}
+
 }  // namespace
 }  // namespace swarmsmith

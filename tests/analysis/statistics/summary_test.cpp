@@ -45,6 +45,14 @@ TEST(Summary, TheMeanDoesNotDependOnTheOrder) {
   EXPECT_EQ(mean_of(std::vector<double>(7, 0.1)), 0.1);
 }
 
+TEST(Summary, TheMeanIsExactWhereOneSumIsNot) {
+  // After 2^64, a long double of 64 bits loses each 1. The mean is 2^52 + 4095 / 4096.
+  std::vector<double> values(4096, 1);
+  values.front() = std::exp2(64);
+  EXPECT_EQ(mean_of(values), std::exp2(52) + 1);
+  EXPECT_EQ(mean_of(std::vector<double>{1e-30}), 1e-30);
+}
+
 TEST(MeanInterval, IsStudents) {
   const MeanInterval summary = mean_interval(std::vector<double>{1, 2, 3, 4, 5});
   EXPECT_DOUBLE_EQ(summary.mean, 3);
