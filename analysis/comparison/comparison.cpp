@@ -42,7 +42,7 @@ void adjust_p_values(std::vector<ComparedPair>& pairs) {
   const auto note = hopeless(corrected_tests(pairs), least_p);
   // A pair that is too small on its own has a note about that already.
   for (ComparedPair& pair : pairs)
-    if (note && pair.test.p_value && pair.test.least_p <= kTestLevel) pair.notes.push_back(*note);
+    if (note && pair.test.p_value && pair.test.least_p < kTestLevel) pair.notes.push_back(*note);
 }
 
 /// Sources are compared on the same designs, so that only the source should differ; notes different
@@ -189,7 +189,7 @@ std::size_t corrected_tests(const std::vector<ComparedPair>& pairs) {
 std::optional<std::string> hopeless(std::size_t tests, double least_p) {
   // Holm multiplies the smallest p by the number of tests, and no adjusted p is below that one.
   const double least = std::min(1.0, static_cast<double>(tests) * least_p);
-  if (tests < 2 || least <= kTestLevel) return std::nullopt;
+  if (tests < 2 || least < kTestLevel) return std::nullopt;
   return fmt::format(
       "too few values for {} tests together: after the correction even the clearest difference "
       "would have a p of {:.3g}",

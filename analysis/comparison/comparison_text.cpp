@@ -102,7 +102,7 @@ std::string ranks_text(const ComparedRanks& ranks) {
       "p {}\n",
       ranks.source.empty() ? "" : " in " + ranks.source, fmt::join(ranks.missions, ", "),
       counted(test.blocks, "block"),
-      ranks.incomplete == 0 ? "" : fmt::format(", {} incomplete ones left out", ranks.incomplete),
+      ranks.incomplete == 0 ? "" : fmt::format(", incomplete and left out: {}", ranks.incomplete),
       shown(test.statistic), counted(test.degrees, "degree"), shown_p(test.p_value));
   return fmt::format("{}{}{}\n", text, aligned(std::move(table)), test.reading());
 }

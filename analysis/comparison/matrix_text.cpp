@@ -17,7 +17,7 @@ namespace {
 using Parts = std::array<std::string, 4>;
 
 std::string shown(double value) {
-  constexpr double kNoDecimalsFrom = 1000;
+  constexpr double kNoDecimalsFrom = 999.5;  // rounded to three digits, it has no decimals left
   return std::abs(value) < kNoDecimalsFrom ? fmt::format("{:.3g}", value)
                                            : fmt::format("{:.0f}", value);
 }

@@ -210,7 +210,7 @@ std::vector<std::string> matrix_notes(const Comparison& comparison) {
   std::map<std::string, std::set<std::string>> missions;
   for (const auto& [key, family] : families) {
     const double tests = static_cast<double>(std::max<std::size_t>(1, family.tests));
-    if (tests * family.least_p <= kTestLevel) continue;
+    if (tests * family.least_p < kTestLevel) continue;
     const std::string sentence =
         hopeless(family.tests, family.least_p)
             .value_or(fmt::format("too few values: even the clearest difference would have a p "

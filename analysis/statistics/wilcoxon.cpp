@@ -20,10 +20,6 @@ double sign_of(double value) {
 /// The normal approximation with continuity correction: the statistic is moved half a step towards
 /// its expected value.
 std::optional<double> approximate_p(double off, double sd, Alternative alternative) {
-  const auto lower = [&](double z) {
-    if (std::isinf(z)) return z > 0 ? 1.0 : 0.0;
-    return normal_cdf(z);
-  };
   double correction = 0;
   switch (alternative) {
     case Alternative::TwoSided:
@@ -40,13 +36,13 @@ std::optional<double> approximate_p(double off, double sd, Alternative alternati
   if (std::isnan(z)) return std::nullopt;  // 0 / 0: there are only ties
   switch (alternative) {
     case Alternative::Greater:
-      return lower(-z);
+      return normal_cdf(-z);
     case Alternative::Less:
-      return lower(z);
+      return normal_cdf(z);
     case Alternative::TwoSided:
       break;
   }
-  return 2 * std::min(lower(z), lower(-z));
+  return 2 * std::min(normal_cdf(z), normal_cdf(-z));
 }
 
 double exact_p(const Tails& tails, Alternative alternative) {

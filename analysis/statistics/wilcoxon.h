@@ -22,8 +22,8 @@ struct WilcoxonTest {
   /// continuity.
   bool exact = false;
   std::size_t zeros = 0;  ///< number of dropped zero differences; only for signed-rank tests
-  /// The smallest two-sided p that the exact test could give for this number of values. If it is
-  /// above 0.05, no difference can be found.
+  /// The smallest two-sided p that the exact test could give for this number of values. No
+  /// difference can be found unless it is below 0.05.
   double least_p = 1;
 };
 

@@ -63,13 +63,13 @@ void add_notes(ComparedPair& pair) {
   }
   if (pair.n_first < 2 || pair.n_second < 2)
     pair.notes.emplace_back("an interval of one value has no width");
-  else if (pair.test.least_p <= kTestLevel && std::min(pair.n_first, pair.n_second) < kFewValues)
+  else if (pair.test.least_p < kTestLevel && std::min(pair.n_first, pair.n_second) < kFewValues)
     pair.notes.push_back(
         fmt::format("n is small: an interval of fewer than {} values is too narrow", kFewValues));
   if (pair.test.zeros > 0 && pair.test.p_value)
     pair.notes.push_back(fmt::format("differences of zero, which the test does not use: {} of {}",
                                      pair.test.zeros, pair.n_first));
-  if (pair.test.p_value && pair.test.least_p > kTestLevel) {
+  if (pair.test.p_value && pair.test.least_p >= kTestLevel) {
     pair.notes.push_back(
         fmt::format("n is too small: even the clearest difference would have an exact p of {:.3g}",
                     pair.test.least_p));

@@ -31,7 +31,6 @@ ScoreTable score_table(const std::vector<DesignScore>& scores) {
   ScoreTable table;
   for (const DesignScore& score : scores) {
     ScoredDesign& design = table[{score.mission, score.method, score.source}][score.design];
-    design.repetition = score.repetition;
     design.scores.push_back(score.score);
     design.by_place[{score.instance, score.seed}].push_back(score.score);
   }

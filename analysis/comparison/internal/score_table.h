@@ -25,7 +25,6 @@ struct RunKey {
 
 /// The scores of a design in one source.
 struct ScoredDesign {
-  std::int64_t repetition = 0;
   std::vector<double> scores;  ///< in the order of the records
   std::map<RunKey, std::vector<double>>
       by_place;  ///< the same scores by instance and seed; usually one each

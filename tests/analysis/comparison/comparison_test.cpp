@@ -194,6 +194,7 @@ TEST(Comparison, ARankSumTestSaysWhatItsNumbersOfValuesAllow) {
            {1, 3, {kNoWidth, too_small + "p of 0.5"}},
            {3, 1, {kNoWidth, too_small + "p of 0.5"}},
            {2, 3, {too_small + "p of 0.2"}},
+           {1, 39, {kNoWidth, too_small + "p of 0.05"}},  // only a p below 0.05 is a difference
            {1, 40, {kNoWidth}},
            {4, 4, {kNarrow}},
            {9, 10, {kNarrow}},
@@ -283,8 +284,12 @@ TEST(Comparison, IsHopelessIfTheCorrectionAlonePreventsEachDifference) {
     double least_p;
     std::string p;
   };
-  for (const auto& [tests, least_p, p] : std::vector<Case>{
-           {1, 0.9, ""}, {2, 0.02, ""}, {2, 0.04, "0.08"}, {3, 0.03, "0.09"}, {3, 0.5, "1"}}) {
+  for (const auto& [tests, least_p, p] : std::vector<Case>{{1, 0.9, ""},
+                                                           {2, 0.02, ""},
+                                                           {2, 0.025, "0.05"},
+                                                           {2, 0.04, "0.08"},
+                                                           {3, 0.03, "0.09"},
+                                                           {3, 0.5, "1"}}) {
     const auto note = hopeless(tests, least_p);
     EXPECT_EQ(note.value_or(""),
               p.empty() ? ""

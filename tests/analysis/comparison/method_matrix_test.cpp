@@ -242,6 +242,19 @@ TEST(MethodMatrix, IsATextForEachSourceThatOfTheTestsFirst) {
             "letter means nothing there\n");
 }
 
+TEST(MethodMatrix, ShowsAtLeastThreeDigitsOfALargeMean) {
+  for (const auto& [mean, shown] :
+       std::vector<std::pair<double, std::string>>{{99.96, "100"},
+                                                   {999.4, "999"},
+                                                   {999.6, "1000"},
+                                                   {-999.6, "-1000"},
+                                                   {12345.6, "12346"}}) {
+    EXPECT_THAT(
+        matrices_text(compare(records_of(two_methods({mean}, {0})), {.by = CompareBy::Method})),
+        HasSubstr(" " + shown + "  "));
+  }
+}
+
 TEST(MethodMatrix, IsATableOfCells) {
   EXPECT_EQ(matrices_csv(of_two_profiles()),
             "source,mission,method,n,runs,mean,low,high,"
