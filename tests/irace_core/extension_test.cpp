@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "tests/irace_core/event_digest.h"
 #include "tests/irace_core/random_designs.h"
 #include "tests/support/checks.h"
 
@@ -147,15 +148,18 @@ TEST(Extension, IsRefusedWithoutAnythingToGoOnFrom) {
   EXPECT_THAT(to_string(race->extend(1000).error()), HasSubstr("max_time"));
 }
 
-TEST(Extension, OfRandomDesignsKeepsTheirRules) {
+TEST(Extension, OfRandomDesignsKeepsTheirRulesAndTheVersionOfTheRace) {
+  constexpr std::uint64_t kOfVersion2 = 13742284982640502756U;
+  ASSERT_EQ(kRaceVersion, 2) << "the digest is that of another version";
+  EventDigest all;
   Rng rng(31);
   int extended = 0;
   int iterated = 0;
   for (int round = 0; round < 400; ++round) {
     SCOPED_TRACE("round " + std::to_string(round));
-    const Scenario scenario = random_scenario(rng);
-    auto race = IteratedRace::start(random_space(rng), scenario);
-    const double rejects = rng.bernoulli(0.3) ? rng.uniform(0, 0.2) : 0;
+    const Design design = random_design(rng);
+    const Scenario& scenario = design.scenario;
+    auto race = IteratedRace::start(design.space, scenario, design.initial, design.repair);
     const std::int64_t more = rng.uniform_int(1, 600);
     if (!race) continue;
     std::set<std::pair<std::int64_t, std::int64_t>> counted;
@@ -163,12 +167,15 @@ TEST(Extension, OfRandomDesignsKeepsTheirRules) {
     std::int64_t budget = scenario.max_experiments;
     for (int extension = 0; extension < 3; ++extension) {
       if (extension > 0) {
+        const auto least = race->least_extension();
+        all.add(least ? *least : -1);
         if (!race->extend(more)) break;
         budget += more;
         ++extended;
       }
       for (;;) {
         for (const RaceEvent& event : race->take_events()) {
+          all.add(event);
           if (const auto* started = std::get_if<IterationStarted>(&event)) {
             EXPECT_GT(started->iteration, last) << "no iteration has the number of another";
             last = started->iteration;
@@ -184,7 +191,7 @@ TEST(Extension, OfRandomDesignsKeepsTheirRules) {
         if (race->finished()) break;
         std::vector<Measurement> answers;
         for (const Experiment& wanted : race->wanted())
-          answers.push_back(answer(race->configuration(wanted.configuration), wanted, rejects));
+          answers.push_back(answer(race->configuration(wanted.configuration), wanted, design.rejects));
         race->tell(answers);
       }
       EXPECT_EQ(race->experiments_used(), static_cast<std::int64_t>(counted.size()));
@@ -197,6 +204,7 @@ TEST(Extension, OfRandomDesignsKeepsTheirRules) {
   }
   EXPECT_GT(extended, 100);
   EXPECT_GT(iterated, 60);
+  EXPECT_EQ(all.value64(), kOfVersion2);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/special_functions.h"
 #include "irace_core/internal/means.h"
 #include "irace_core/internal/race.h"
 #include "irace_core/internal/ranking.h"
@@ -53,6 +54,9 @@ TEST(TTest, AdjustsForTheNumberOfTests) {
   EXPECT_THAT(adjusted(p, TestType::TTestBonferroni), ElementsAre(0.04, 0.16, 0.12, 1));
   // Smallest times 4, then 0.03 * 3, then 0.04 * 2 which may not be smaller.
   EXPECT_THAT(adjusted(p, TestType::TTestHolm), ElementsAre(0.04, 0.09, 0.09, 1));
+  const std::vector<double> large{0.5, 0.4};
+  EXPECT_THAT(adjusted(large, TestType::TTestBonferroni), ElementsAre(1, 0.8));
+  EXPECT_THAT(adjusted({0.9, 0.8}, TestType::TTestHolm), ElementsAre(1, 1));
 }
 
 TEST(TTest, ComparesEachWithTheBestMean) {
@@ -68,6 +72,22 @@ TEST(TTest, ComparesEachWithTheBestMean) {
   EXPECT_THAT(result.dropped, ElementsAre(8U, 9U));
   EXPECT_NEAR(result.statistic, 1 / std::sqrt(14.0 / 12), 1e-12);
   EXPECT_EQ(result.p_value, 0);
+}
+
+/// Differences 1, 2, 3, -2 as above: p of t = 1 / sqrt(14/12) with 3 degrees of freedom.
+TEST(TTest, DropsWhatHasASmallerPThanAlpha) {
+  const std::vector<double> best{1, 2, 3, 4};
+  const std::vector<double> other{2, 4, 6, 2};
+  const auto tested = [&](double alpha) {
+    return paired_t_tests(std::vector<std::span<const double>>{best, other},
+                          std::vector<double>{2.5, 3.5}, std::vector<std::size_t>{0, 1}, alpha,
+                          TestType::TTest);
+  };
+  const double p = student_t_two_sided_tail(1 / std::sqrt(14.0 / 12), 3);
+  EXPECT_NEAR(tested(0.05).p_value, p, 1e-12);
+  EXPECT_THAT(tested(p * 0.999).dropped, IsEmpty());
+  EXPECT_THAT(tested(tested(0.05).p_value).dropped, IsEmpty());
+  EXPECT_THAT(tested(p * 1.001).dropped, ElementsAre(1U));
 }
 
 TEST(TTest, KeepsEqualMeans) {

@@ -6,6 +6,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "irace_core/iterated_race.h"
+#include "tests/irace_core/costs.h"
+#include "tests/irace_core/event_digest.h"
 #include "tests/irace_core/search/played.h"
 #include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
@@ -56,6 +59,132 @@ TEST_P(EverySearch, GivesTheSameAnswerTwiceAndAnotherForAnotherSeed) {
       play(*started(weights_space(5), options_of(GetParam()), 6000, 8), noisy_sphere);
   EXPECT_EQ(digests(once), digests(twice));
   EXPECT_NE(digests(once), digests(other));
+}
+
+/// The first weight may not be 0 or less.
+ParameterSpace space_with_forbidden() {
+  std::vector<Parameter> parameters;
+  for (const char* name : {"w0", "w1"})
+    parameters.push_back({name, std::string("--") + name + " ", Real{-5.0, 5.0}, {}});
+  std::vector<Expression> forbidden;
+  forbidden.push_back(
+      Expression::call(Operation::LessEqual, {Expression::parameter("w0"), Expression::number(0)}));
+  return ParameterSpace::make(std::move(parameters), std::move(forbidden), 4).value();
+}
+
+/// A search of one version; a trace is the digest of all its questions and events.
+struct Traced {
+  const char* name;
+  ParameterSpace space;
+  SearchOptions options;
+  std::int64_t budget;
+  std::int64_t extension;  ///< further experiments; 0 for none
+  double rejects;          ///< share of the configurations that are rejected
+  bool gives_initial;      ///< whether it begins with given configurations
+  std::uint64_t trace;
+};
+
+template <class Options>
+Options changed(void (*change)(Options&)) {
+  Options options;
+  change(options);
+  return options;
+}
+
+/// The options that are not the default ones are chosen to reach other rules: members that are
+/// few, a last part that is smaller, temperatures that begin again, a start that is random.
+std::vector<Traced> traced_searches() {
+  const EvolutionOptions neat;
+  const auto normal = changed<EvolutionOptions>([](EvolutionOptions& o) {
+    o.population = 9, o.runs = 3, o.parents = 0.5, o.elites = 0.25, o.step = 0.7;
+    o.mutation = Mutation::Normal, o.final_runs = 4;
+  });
+  const auto small_cma = changed<CmaEsOptions>([](CmaEsOptions& o) {
+    o.population = 7, o.runs = 2, o.step = 0.5, o.final_runs = 3;
+  });
+  const auto wide_cma =
+      changed<CmaEsOptions>([](CmaEsOptions& o) { o.population = 6, o.runs = 1, o.step = 10; });
+  const auto published = changed<AnnealingOptions>([](AnnealingOptions& o) {
+    o.cooling = Cooling::Published, o.window = 5, o.moved = 2, o.final_runs = 7;
+  });
+  const auto frozen = changed<AnnealingOptions>([](AnnealingOptions& o) {
+    o.start_temperature = 3, o.end_temperature = 0, o.start_at_random = true, o.moved = 10;
+  });
+  const auto finalists = changed<RandomOptions>([](RandomOptions& o) {
+    o.runs = 3, o.finalists = 4, o.final_runs = 11;
+  });
+  const auto few = changed<FRaceOptions>([](FRaceOptions& o) { o.configurations = 30; });
+  return {
+      {"irace", mixed_space(), search_of(SearchKind::Irace), 2000, 900, 0.1, true, 16765328373391945833U},
+      {"f-race", mixed_space(), FRaceOptions{}, 2000, 0, 0, true, 4273007449327865898U},
+      {"f-race of 30", mixed_space(), few, 700, 0, 0.2, false, 16203336691198566586U},
+      {"random", mixed_space(), RandomOptions{}, 12'500, 2150, 0, true, 18056707219770113915U},
+      {"random, 4 finalists", space_with_forbidden(), finalists, 5000, 500, 0.3, true, 17169148142968550858U},
+      {"evolution", weights_space(12), neat, 6000, 3010, 0.05, true, 15050019863362956436U},
+      {"evolution, normal", weights_space(3, 2), normal, 500, 200, 0, false, 7770733067100650419U},
+      {"cma-es", weights_space(5), CmaEsOptions{}, 6000, 3010, 0, false, 7241178616094801548U},
+      {"cma-es, 7 members", weights_space(4, 2), small_cma, 400, 150, 0.1, true, 479743292472773238U},
+      {"cma-es, wide", weights_space(2), wide_cma, 300, 100, 0, true, 12577315680540096921U},
+      {"annealing", mixed_space(), AnnealingOptions{}, 4000, 0, 0, false, 51207754885657526U},
+      {"annealing, published", weights_space(3), published, 2000, 0, 0.1, true, 1280989082109102630U},
+      {"annealing, frozen", mixed_space(), frozen, 3000, 0, 0, true, 13364618673641254097U},
+  };
+}
+
+std::uint64_t trace_of(const Traced& traced) {
+  Scenario scenario;
+  scenario.max_experiments = traced.budget;
+  scenario.n_instances = 3;
+  scenario.seed = 7;
+  Rng rng(5);
+  std::vector<Configuration> initial;
+  for (int i = 0; traced.gives_initial && i < 5; ++i)
+    initial.push_back(sample_uniform(traced.space, rng).value());
+  auto search = value_of(start_search(traced.space, scenario, traced.options, initial));
+  testing::EventDigest digest;
+  const auto add_state = [&] {
+    for (const RaceEvent& event : search->take_events())
+      digest.add(event);
+    digest.add(search->wanted());
+    digest.add(search->ahead(2));
+    digest.add(search->alive());
+    digest.add(search->elites());
+    for (const std::int64_t number : {search->experiments_used(), search->budget(),
+                                      search->iteration(), search->n_iterations(),
+                                      search->n_alive()})
+      digest.add(number);
+  };
+  const auto play_to_the_end = [&] {
+    for (add_state(); !search->finished(); add_state()) {
+      std::vector<Measurement> costs;
+      for (const Experiment& wanted : search->wanted()) {
+        const Configuration& configuration = search->configuration(wanted.configuration);
+        const bool is_rejected = Rng(configuration.digest()).bernoulli(traced.rejects);
+        costs.push_back({is_rejected ? std::numeric_limits<double>::infinity()
+                                     : testing::synthetic_cost(configuration, wanted),
+                         0});
+      }
+      search->tell(costs);
+    }
+  };
+  play_to_the_end();
+  const auto least = search->least_extension();
+  digest.add(least ? *least : -1);
+  EXPECT_EQ(least.has_value(), traced.extension > 0);
+  if (traced.extension == 0) return digest.value64();
+  EXPECT_TRUE(search->extend(traced.extension));
+  play_to_the_end();
+  return digest.value64();
+}
+
+/// A search that decides otherwise for the same costs needs another version in its words: a store
+/// of the version before could be continued with another search than it began with.
+TEST(Search, DecidesAsItsVersionPromises) {
+  ASSERT_EQ(kRaceVersion, 2) << "the traces of races are those of another version";
+  for (const SearchKind kind : all_searches())
+    ASSERT_EQ(words_of(kind).version, 1) << name_of(kind) << ": the traces are of another version";
+  for (const Traced& traced : not_empty(traced_searches()))
+    EXPECT_EQ(trace_of(traced), traced.trace) << traced.name;
 }
 
 /// Small numbers of runs and members, and any shares.
@@ -268,17 +397,6 @@ TEST(Search, OfWeightsAloneSaysWhatItCannotUse) {
     EXPECT_EQ(search.where, "mode");
     EXPECT_THAT(search.message, HasSubstr(std::string(name_of(kind))));
   }
-}
-
-/// The first weight may not be 0 or less.
-ParameterSpace space_with_forbidden() {
-  std::vector<Parameter> parameters;
-  for (const char* name : {"w0", "w1"})
-    parameters.push_back({name, std::string("--") + name + " ", Real{-5.0, 5.0}, {}});
-  std::vector<Expression> forbidden;
-  forbidden.push_back(
-      Expression::call(Operation::LessEqual, {Expression::parameter("w0"), Expression::number(0)}));
-  return ParameterSpace::make(std::move(parameters), std::move(forbidden), 4).value();
 }
 
 TEST_P(EverySearch, KeepsToWhatIsNotForbiddenOrSaysThatItCannot) {
