@@ -1,9 +1,13 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +21,39 @@ namespace swarmsmith {
 inline constexpr const char* kCuriousMachine =
     "--nstates 2 --s0 0 --rwm0 10 --n0 1 --n0x0 0 --c0x0 0 --p0x0 0.8 "
     "--s1 2 --att1 2 --n1 1 --n1x0 0 --c1x0 5 --p1x0 0.1";
+
+/// Goes towards light, which it needs beside its proximity sensors: a machine of `chocolate`.
+inline constexpr const char* kLightMachine = "--nstates 1 --s0 2";
+
+/// A row with all its fields, for comparisons.
+inline std::string text_of(const LogRow& row) {
+  const auto rgb = [](const Rgb& color) {
+    return fmt::format("({} {} {})", color.r, color.g, color.b);
+  };
+  const auto feeds = [](const PerFeed<std::optional<double>>& numbers) {
+    std::string text;
+    for (const auto& number : numbers)
+      text += number ? fmt::format(" {:.6g}", *number) : " -";
+    return text;
+  };
+  std::string text = fmt::format("{} at {:.6f} late {:.6g} ms {} state {} speeds {} {} leds",
+                                 row.cycle, row.clock_s, row.late_ms, name_of(row.act), row.state,
+                                 row.command.left_mps, row.command.right_mps);
+  for (const Rgb& led : row.command.leds)
+    text += rgb(led);
+  text += fmt::format(" time {:.9g} proximity", row.sensed.time_s);
+  for (const double distance : row.sensed.proximity_m)
+    text += fmt::format(" {}", distance);
+  text += " ground " + rgb(row.sensed.ground) + " neighbours";
+  for (const Neighbour& one : row.sensed.neighbours)
+    text += fmt::format(" ({} {} {})", one.distance_m, one.direction_x, one.direction_y);
+  text += " lux";
+  for (const double lux : row.sensed.light_lux)
+    text += fmt::format(" {}", lux);
+  return text + fmt::format(" sent ({} {} {}) ages{} stamps{} drawn {}: {}", row.ground_as_sent.r,
+                            row.ground_as_sent.g, row.ground_as_sent.b, feeds(row.age_ms),
+                            feeds(row.stamp_ms), row.drawn, row.event);
+}
 
 /// A node on a bench, with a clock of its own that only the test moves, and drivers that send each
 /// 100 ms.
@@ -38,11 +75,13 @@ class BenchRobot {
   void send_ground(double gray = 127) {
     node.feeds().hear(GroundColorMessage{{clock, 0}, gray, gray, gray});
   }
+  void send_light() { node.feeds().hear(LightMessage{{clock, 0}, {0, 0, 0, 500, 0, 0, 0, 0}}); }
   void send_neighbours() { node.feeds().hear(NeighboursMessage{{clock, 0}, {{0.5, 0.6, 0.8}}}); }
   void send_all() {
     if (ranges) send_ranges();
     if (ground) send_ground();
     if (neighbours) send_neighbours();
+    if (light) send_light();
   }
 
   void send_driver() {
@@ -104,6 +143,7 @@ class BenchRobot {
   bool ranges = true;
   bool ground = true;
   bool neighbours = true;
+  bool light = false;
   bool alive = true;
   bool obeys = true;  ///< its driver, which says so
   Command treads;

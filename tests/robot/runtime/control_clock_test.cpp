@@ -48,7 +48,10 @@ TEST(ControlClock, EndsAtItsLastCycleHoweverLateItIs) {
   const ControlClock::Beat last = clock.beat(at_ms(9000));
   EXPECT_EQ(last.cycle, 5);
   EXPECT_EQ(last.skipped, 4);
+  EXPECT_EQ(last.late, milliseconds(7500)) << "after its deadline";
   EXPECT_EQ(clock.beat(at_ms(9100)).cycle, 0);
+  EXPECT_EQ(clock.last(), 5);
+  EXPECT_EQ(clock_of(0).beat(at_ms(1100)).cycle, 0) << "a run without cycles";
 }
 
 TEST(ControlClock, DoesNotDrift) {

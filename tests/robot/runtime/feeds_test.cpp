@@ -3,8 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace swarmsmith {
 namespace {
@@ -31,23 +35,30 @@ TEST(Feeds, TakeAMissingSensorForSilenceAndNameIt) {
   const std::vector<double> free(8, kInfinity);
   feeds.hear(RangesMessage{at_ms(0), std::vector<double>(8, 0.2)});
   std::vector<double> broken;
-  for (const std::size_t sensor : {0U, 7U, 3U}) {
+  for (const auto& [sensor, name] :
+       {std::pair{0U, "0 (45"}, std::pair{7U, "7 (90"}, std::pair{3U, "3 (-90"}}) {
     broken = free;
     broken[sensor] = std::nan("");
     feeds.hear(RangesMessage{at_ms(100), broken});
     EXPECT_EQ(feeds.heard(Feed::Proximity), 1) << sensor;
+    EXPECT_EQ(feeds.trouble(Feed::Proximity),
+              std::string("proximity sensor ") + name + " degrees) is missing: its value is NaN");
   }
   EXPECT_EQ(feeds.sensed().proximity_m[0], 0.2) << "not free";
   EXPECT_EQ(feeds.age(Feed::Proximity, TimePoint(milliseconds(100))), milliseconds(100));
-  EXPECT_THAT(feeds.trouble(Feed::Proximity), testing::HasSubstr("sensor 3 (-90 degrees)"));
   feeds.hear(RangesMessage{at_ms(200), free});
   EXPECT_EQ(feeds.trouble(Feed::Proximity), "");
   EXPECT_EQ(feeds.age(Feed::Proximity, TimePoint(milliseconds(200))), milliseconds(0));
   feeds.hear(RangesMessage{at_ms(300), {0.1, 0.2}});
-  EXPECT_THAT(feeds.trouble(Feed::Proximity), testing::HasSubstr("expected 8 values, got 2"));
+  EXPECT_EQ(feeds.trouble(Feed::Proximity), "expected 8 values, got 2");
+  feeds.hear(RangesMessage{at_ms(300), std::vector<double>(9, 0.2)});
+  EXPECT_EQ(feeds.trouble(Feed::Proximity), "expected 8 values, got 9");
   broken[3] = -0.3;
   feeds.hear(RangesMessage{at_ms(300), broken});
-  EXPECT_THAT(feeds.trouble(Feed::Proximity), testing::HasSubstr("negative"));
+  EXPECT_EQ(feeds.trouble(Feed::Proximity),
+            "proximity sensor 3 (-90 degrees) has the negative range -0.300000 m");
+  EXPECT_EQ(feeds.heard(Feed::Proximity), 2);
+  EXPECT_EQ(feeds.sensed().proximity_m[0], kInfinity) << "the last usable message";
 }
 
 TEST(Feeds, ScaleAndLabelTheFloor) {
@@ -61,18 +72,41 @@ TEST(Feeds, ScaleAndLabelTheFloor) {
   Feeds labelled({.labels = {{0, 0, 0}, {127, 127, 127}, {255, 0, 0}}});
   labelled.hear(GroundColorMessage{at_ms(0), 30, 20, 10});
   EXPECT_EQ(labelled.sensed().ground, (Rgb{0, 0, 0}));
-  labelled.hear(GroundColorMessage{at_ms(9), std::nan(""), 20, 10});
-  EXPECT_EQ(labelled.heard(Feed::Ground), 1);
-  EXPECT_THAT(labelled.trouble(Feed::Ground), testing::HasSubstr("not a number"));
+  for (double GroundColorMessage::*part :
+       {&GroundColorMessage::r, &GroundColorMessage::g, &GroundColorMessage::b}) {
+    GroundColorMessage wrong{at_ms(9), 120, 120, 120};
+    wrong.*part = std::nan("");
+    labelled.hear(wrong);
+    EXPECT_EQ(labelled.heard(Feed::Ground), 1);
+    EXPECT_EQ(labelled.trouble(Feed::Ground), "a colour that is not a number");
+    EXPECT_EQ(labelled.ground_as_sent(), (RawColor{30, 20, 10}));
+    EXPECT_EQ(labelled.sensed().ground, (Rgb{0, 0, 0}));
+  }
+  labelled.hear(GroundColorMessage{at_ms(9), 120, 120, 120});
+  EXPECT_EQ(labelled.sensed().ground, (Rgb{127, 127, 127}));
 }
 
 TEST(Feeds, HearNeighboursReadyOrByScan) {
   Feeds feeds({});
   feeds.hear(NeighboursMessage{at_ms(0), {{0.5, 0, 1}, {0.3, -1, 0}}});
-  ASSERT_EQ(feeds.sensed().neighbours.size(), 2U);
-  EXPECT_EQ(feeds.sensed().neighbours[1].distance_m, 0.3);
-  feeds.hear(NeighboursMessage{at_ms(0), {{std::nan(""), 0, 1}}});
-  EXPECT_EQ(feeds.sensed().neighbours.size(), 2U);
+  const auto neighbours = [&feeds] {
+    std::vector<std::array<double, 3>> all;
+    for (const Neighbour& one : feeds.sensed().neighbours)
+      all.push_back({one.distance_m, one.direction_x, one.direction_y});
+    return all;
+  };
+  const std::vector<std::array<double, 3>> heard{{0.5, 0, 1}, {0.3, -1, 0}};
+  EXPECT_EQ(neighbours(), heard);
+  const double nan = std::nan("");
+  for (const SeenRobot& wrong :
+       {SeenRobot{nan, 0, 1}, SeenRobot{kInfinity, 0, 1}, SeenRobot{-0.1, 0, 1},
+        SeenRobot{0.4, nan, 1}, SeenRobot{0.4, 0, kInfinity}}) {
+    feeds.hear(NeighboursMessage{at_ms(0), {{0.4, 1, 0}, wrong}});
+    EXPECT_EQ(feeds.trouble(Feed::Neighbours), "a neighbour whose place is not a number");
+    EXPECT_EQ(neighbours(), heard);
+  }
+  feeds.hear(NeighboursMessage{at_ms(0), {{0, 1, 0}}});
+  EXPECT_EQ(neighbours().size(), 1U) << "instead of the earlier ones";
   ScanMessage scan{.arrival = at_ms(5),
                    .angle_min_rad = 0,
                    .angle_increment_rad = 6.283185307179586 / kLidarRays,
@@ -84,7 +118,12 @@ TEST(Feeds, HearNeighboursReadyOrByScan) {
   feeds.hear(scan);
   ASSERT_EQ(feeds.sensed().neighbours.size(), 1U);
   EXPECT_NEAR(feeds.sensed().neighbours[0].distance_m, 0.6, 1e-12);
-  EXPECT_EQ(feeds.heard(Feed::Neighbours), 2);
+  EXPECT_EQ(feeds.heard(Feed::Neighbours), 3);
+  EXPECT_EQ(feeds.age(Feed::Neighbours, TimePoint(milliseconds(6))), milliseconds(1));
+  scan.ranges_m.clear();
+  feeds.hear(scan);
+  EXPECT_EQ(feeds.trouble(Feed::Neighbours), "a scan without values");
+  EXPECT_EQ(neighbours().size(), 1U);
 }
 
 TEST(Feeds, TellTheDelayOfStampsByTheWallClock) {
@@ -102,10 +141,15 @@ TEST(Feeds, TellTheDelayOfStampsByTheWallClock) {
 TEST(Feeds, KeepLightWithinTheReferenceModel) {
   Feeds feeds({});
   feeds.hear(LightMessage{at_ms(0), {0, 1, 2, 3, 4, 5, 6, 1e9}});
-  EXPECT_EQ(feeds.sensed().light_lux[7], kMostLight_lux);
-  feeds.hear(LightMessage{at_ms(0), {0, 1, 2, 3, 4, 5, 6, -1}});
+  EXPECT_EQ(feeds.sensed().light_lux, (EightReadings{0, 1, 2, 3, 4, 5, 6, kMostLight_lux}));
+  for (const double wrong : {-1.0, std::nan("")}) {
+    feeds.hear(LightMessage{at_ms(0), {7, 1, 2, 3, 4, 5, 6, wrong}});
+    EXPECT_EQ(feeds.trouble(Feed::Light), "a light sensor is missing: NaN or negative lux");
+  }
   feeds.hear(LightMessage{at_ms(0), {0, 1}});
+  EXPECT_EQ(feeds.trouble(Feed::Light), "expected 8 values, got 2");
   EXPECT_EQ(feeds.heard(Feed::Light), 1);
+  EXPECT_EQ(feeds.sensed().light_lux[0], 0);
 }
 
 }  // namespace

@@ -1,7 +1,18 @@
 #include "robot/runtime/node.h"
 
-#include <cmath>
+#include <fmt/format.h>
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/rng.h"
 #include "robot/runtime/replay.h"
 #include "robot/runtime/robot_kind.h"
 #include "sim/files/robot_file.h"
@@ -69,13 +80,19 @@ TEST(RobotNode, BeginsAtTheAgreedInstantAndEndsByItself) {
   EXPECT_GT(robot.speed(), 0);
   robot.cycles(298);
   EXPECT_EQ(robot.state().phase, Phase::Running);
-  robot.cycle();
+  const Decision end = robot.cycle();
+  EXPECT_EQ(end.command, Command{});
+  EXPECT_EQ(end.state, 0);
   EXPECT_EQ(robot.state().phase, Phase::Ended);
-  EXPECT_EQ(robot.speed(), 0);
   EXPECT_EQ(robot.rows.size(), 299U);
+  for (const LogRow& row : robot.rows)
+    EXPECT_EQ(row.event, "") << row.cycle;
   EXPECT_EQ(robot.state().verdict, RunVerdict::Valid)
       << testing::PrintToString(robot.state().reasons);
-  EXPECT_EQ(robot.cycle().command, Command{}) << "zero until the state is left";
+  const Decision after = robot.cycle();
+  EXPECT_EQ(after.command, Command{}) << "zero until the state is left";
+  EXPECT_EQ(after.state, 0);
+  EXPECT_FALSE(after.row);
   const LogHead head = robot.node.head();
   ASSERT_TRUE(head.end);
   EXPECT_EQ(head.end->state, "ended");
@@ -333,6 +350,9 @@ TEST(RobotNode, SaysWhenItsComputerWasTooBusy) {
     EXPECT_EQ(robot.state().phase, Phase::Ended);
     EXPECT_EQ(robot.state().skipped, skips);
     EXPECT_EQ(robot.rows.size(), static_cast<std::size_t>(299 - skips));
+    const std::string reason =
+        fmt::format("{} of 300 cycles were skipped: the computer was too busy", skips);
+    EXPECT_EQ(robot.state().reasons, skips > 3 ? std::vector{reason} : std::vector<std::string>());
     return robot.state().verdict;
   };
   EXPECT_EQ(verdict_after(3), RunVerdict::Valid);
@@ -375,6 +395,8 @@ TEST(RobotNode, EndsTheRunWhenTheOperatorIsGone) {
   alone.start();
   alone.cycles(50);
   EXPECT_EQ(alone.state().phase, Phase::Running);
+  EXPECT_GT(alone.speed(), 0);
+  EXPECT_THAT(alone.state().reasons, IsEmpty());
 }
 
 TEST(RobotNode, StandsStillWithinHalfASecondOfItsOperatorsSilence) {
@@ -494,10 +516,16 @@ TEST(RobotNode, DoesNotBeginWithoutALog) {
   robot.cycles(2);
   robot.node.hear(robot.order(Order::Kind::Start), robot.now());
   robot.node.disarm("the log cannot be written: read-only");
+  EXPECT_EQ(robot.state().phase, Phase::Idle);
+  EXPECT_FALSE(robot.cycle().command) << "a person may carry the robot";
   robot.cycles(20);
   EXPECT_EQ(robot.state().phase, Phase::Ready);
-  EXPECT_THAT(robot.state().refused, HasSubstr("read-only"));
+  EXPECT_EQ(robot.state().refused, "the log cannot be written: read-only");
+  EXPECT_EQ(robot.state().run, "");
   EXPECT_THAT(robot.rows, IsEmpty());
+  robot.node.hear(robot.order(Order::Kind::Start), robot.now());
+  EXPECT_EQ(robot.state().refused,
+            "the robot has already had an order for run run07; a new run needs a new name");
 }
 
 TEST(RobotNode, HasItsTimeSinceTheStartInEachRow) {
@@ -578,6 +606,612 @@ TEST(RobotNode, InLockStepIsWhatTheControllerIs) {
     EXPECT_EQ(decision.row->drawn, control.drawn());
     EXPECT_EQ(decision.row->sensed.time_s, message.time_s) << "the world's time";
   }
+}
+
+/// All that a node lets others see of its run.
+struct Seen {
+  NodeState state;
+  LogHead head;
+  std::vector<std::string> rows;
+};
+
+Seen seen_of(const BenchRobot& robot) {
+  Seen seen{.state = robot.state(), .head = robot.node.head(), .rows = {}};
+  for (const LogRow& row : robot.rows)
+    seen.rows.push_back(text_of(row));
+  return seen;
+}
+
+TEST(RobotNode, MakesASecondRunLikeAFirstOne) {
+  // One robot has had these runs, one after the other, before the compared one.
+  const NodeSettings settings{.max_mps = 0.25};
+  using Deed = std::function<void(BenchRobot&)>;
+  const std::vector<Deed> troubles{
+      [](BenchRobot& robot) {  // its driver disobeys
+        robot.obeys = false;
+        robot.cycles(15);
+        robot.obeys = true;
+      },
+      [](BenchRobot& robot) {  // its log is lost after it stood for its sensors and operator
+        robot.ranges = robot.alive = false;
+        robot.cycles(5);
+        robot.ranges = true;
+        robot.cycle();
+        robot.alive = true;
+        robot.cycle();
+        robot.clock += milliseconds(300);
+        robot.wall_ahead_s = 5;
+        robot.cycles(2);
+        robot.wall_ahead_s = 0;
+        robot.cycles(2);
+        robot.node.lose_log();
+      },
+      [](BenchRobot& robot) {  // the last messages of its operator are too early, then too late
+        robot.operator_ahead_s = 5;
+        robot.node.hear(robot.order(Order::Kind::Alive), robot.now());
+        robot.operator_ahead_s = -5;
+        robot.node.hear(robot.order(Order::Kind::Alive), robot.now());
+        robot.operator_ahead_s = 0;
+        robot.node.stop("by SIGTERM");
+      }};
+  const std::vector<Deed> stories{[](BenchRobot& robot) {
+                                    robot.cycles(60);
+                                    robot.ranges = false;
+                                    robot.cycles(5);
+                                    robot.ranges = true;
+                                    robot.cycles(2);
+                                    robot.obeys = false;
+                                    robot.cycles(5);
+                                    robot.obeys = true;
+                                    robot.cycles(2);
+                                    robot.alive = false;
+                                    robot.cycles(4);
+                                    robot.alive = true;
+                                    robot.cycles(240);
+                                  },
+                                  [](BenchRobot& robot) {  // the operator is never heard
+                                    robot.cycles(3);
+                                  }};
+  for (const bool has_operator : {true, false}) {
+    BenchRobot used(settings);
+    int runs = 0;
+    for (const Deed& trouble : troubles) {
+      used.run = "before" + std::to_string(++runs);
+      used.cycles(2);
+      Order start = used.order(Order::Kind::Start);
+      start.seed = 3;
+      start.clock_offsets_s = {{"rvr1", 0.25}};
+      used.node.hear(start, used.now());
+      used.cycles(30);
+      trouble(used);
+      used.cycles(3);
+      EXPECT_NE(used.state().verdict, RunVerdict::Valid);
+      EXPECT_FALSE(used.node.is_on());
+    }
+    BenchRobot fresh(settings);
+    fresh.clock = used.clock;
+    std::vector<Seen> seen;
+    for (BenchRobot* robot : {&used, &fresh}) {
+      robot->rows.clear();
+      robot->treads = {};
+      robot->cycles(50);
+      robot->run = "run07";
+      robot->alive = has_operator;
+      robot->start();
+      stories[has_operator ? 0 : 1](*robot);
+      seen.push_back(seen_of(*robot));
+      seen.back().state.order.clear();  // orders have numbers
+    }
+    EXPECT_EQ(seen[0].state, seen[1].state);
+    EXPECT_EQ(seen[0].head, seen[1].head);
+    EXPECT_EQ(seen[0].rows, seen[1].rows);
+    EXPECT_EQ(seen[1].state.phase, has_operator ? Phase::Ended : Phase::Failed);
+    if (has_operator) {
+      EXPECT_THAT(seen[1].state.reasons,
+                  ElementsAre(HasSubstr("proximity was silent for up to"), HasSubstr("driver: "),
+                              HasSubstr("the operator was silent, for up to 0.40 s"),
+                              StartsWith("speeds were cut to 0.25 m/s in ")));
+    } else {
+      EXPECT_THAT(seen[1].state.reasons, ElementsAre("no message from the operator for 1.10 s"));
+    }
+  }
+}
+
+TEST(RobotNode, SaysAllOfItselfBeforeDuringAndAfterARun) {
+  BenchRobot robot({.robot = "rvr5",
+                    .robot_index = 3,
+                    .seed = 9,
+                    .max_mps = 0.5,
+                    .version = "v7",
+                    .scheduling = "SCHED_FIFO 20",
+                    .host = "raspberry",
+                    .topics = {{"ranges", "/ranges"}}});
+  LogHead head{.run = "",
+               .robot = "rvr5",
+               .robot_index = 3,
+               .machine = print_controller(parse_controller(kCuriousMachine, watermelon()).value(),
+                                           watermelon()),
+               .machine_digest = robot.state().machine_digest,
+               .flavour = "watermelon",
+               .turn_clock = std::string(name_of(watermelon().exploration.turn_clock)),
+               .seed = 9,
+               .period_s = 0.1,
+               .seconds = 0,
+               .max_mps = 0.5,
+               .program = "v7",
+               .host = "raspberry",
+               .scheduling = "SCHED_FIFO 20",
+               .topics = {{"ranges", "/ranges"}}};
+  EXPECT_EQ(robot.node.head(), head) << "before any run";
+  EXPECT_EQ(head.machine_digest.size(), 32U);
+  const double nan = std::nan("");
+  robot.node.hear(BatteryMessage{.charge = 0.2});
+  robot.ground = false;
+  robot.cycle();
+  robot.clock += milliseconds(20);
+  NodeState state{.robot = "rvr5",
+                  .phase = Phase::Idle,
+                  .machine_digest = head.machine_digest,
+                  .flavour = "watermelon",
+                  .turn_clock = head.turn_clock,
+                  .seed = 9,
+                  .robot_index = 3,
+                  .version = "v7",
+                  .scheduling = "SCHED_FIFO 20",
+                  .age_ms = {20, -1, 20, std::nullopt},
+                  .battery = 0.2,
+                  .not_ready = {"ground: no message yet"},
+                  .clock_s = 1000.12,
+                  .unix_s = 1000.12};
+  EXPECT_EQ(robot.state(), state);
+  robot.node.hear(BatteryMessage{.charge = nan});
+  robot.clock += milliseconds(80);
+  robot.ground = true;
+  robot.cycle();
+  Order start = robot.order(Order::Kind::Start);
+  start.seed = 77;
+  start.clock_offsets_s = {{"rvr1", 0.25}, {"rvr5", -0.5}};
+  robot.node.hear(start, robot.now());
+  robot.node.set_log_open(true);
+  state.phase = Phase::Armed;
+  state.run = "run07";
+  state.seed = 77;
+  state.age_ms = {0, 0, 0, std::nullopt};
+  state.battery = std::nullopt;
+  state.not_ready.clear();
+  state.log_open = true;
+  state.order = start.id;
+  state.start_unix_s = start.at_unix_s;
+  state.clock_s = state.unix_s = 1000.3;
+  EXPECT_EQ(robot.state(), state);
+  robot.cycles(32);
+  state.phase = Phase::Running;
+  state.cycle = 22;
+  state.clock_s = state.unix_s = 1003.5;
+  EXPECT_EQ(robot.state(), state);
+  head.run = "run07";
+  head.seed = 77;
+  head.seconds = 30;
+  head.start_clock_s = head.start_unix_s = 1001.3;
+  head.clock_offset_s = -0.5;
+  EXPECT_EQ(robot.node.head(), head);
+  robot.ranges = false;
+  robot.cycles(5);
+  robot.ranges = true;
+  robot.clock += milliseconds(100);
+  robot.cycle();
+  robot.node.hear(robot.order(Order::Kind::Stop), robot.now());
+  state.phase = Phase::Stopped;
+  state.cycle = 29;
+  state.held = 2;
+  state.skipped = 1;
+  state.seed = 9;
+  state.start_unix_s = 0;
+  state.order = "bench-42";
+  state.verdict = RunVerdict::Invalid;
+  state.reasons = {"stopped by order after 2.9 s of 30.0 s",
+                   "proximity was silent for up to 0.50 s: 2 cycles were not stepped"};
+  state.clock_s = state.unix_s = 1004.2;
+  EXPECT_EQ(robot.state(), state);
+  head.end = RunEnd{.state = "stopped",
+                    .verdict = RunVerdict::Invalid,
+                    .reasons = state.reasons,
+                    .stepped = 26,
+                    .held = 2,
+                    .skipped = 1,
+                    .driven = true};
+  EXPECT_EQ(robot.node.head(), head);
+}
+
+TEST(RobotNode, NeedsTheFeedsOfItsMachine) {
+  const Flavour chocolate = find_flavour("chocolate", TurnClock::Cycles).value();
+  const auto needed = [](const std::string& machine, const Flavour& flavour) {
+    return BenchRobot({}, machine, flavour).node.needed();
+  };
+  EXPECT_EQ(needed("--nstates 1 --s0 1", watermelon()), (PerFeed<bool>{}));
+  EXPECT_EQ(needed("--nstates 1 --s0 2 --att0 2", watermelon()),
+            (PerFeed<bool>{true, false, true, false}));
+  EXPECT_EQ(needed(kCuriousMachine, watermelon()), (PerFeed<bool>{true, true, true, false}));
+  EXPECT_EQ(needed(kLightMachine, chocolate), (PerFeed<bool>{true, false, false, true}));
+}
+
+TEST(RobotNode, TellsMachinesFlavoursAndTurnClocksApart) {
+  const auto digest = [](const char* machine, const char* flavour, TurnClock clock) {
+    return BenchRobot({}, machine, find_flavour(flavour, clock).value()).state().machine_digest;
+  };
+  std::set<std::string> digests;
+  for (const char* machine : {"--nstates 1 --s0 0 --rwm0 1", "--nstates 1 --s0 1"}) {
+    for (const char* flavour : {"watermelon", "chocolate"}) {
+      for (const TurnClock clock : {TurnClock::Cycles, TurnClock::Seconds})
+        digests.insert(digest(machine, flavour, clock));
+    }
+  }
+  EXPECT_EQ(digests.size(), 8U);
+}
+
+TEST(RobotNode, AStartIsInTheNextMinuteAndLastsACycleAtLeast) {
+  struct Case {
+    double ahead_s;
+    double seconds;
+    const char* refused;
+  };
+  for (const Case& of : {Case{60, 30, ""}, Case{0.125, 30, ""}, Case{1, 0.1, ""}, Case{1, 0.05, ""},
+                         Case{60.25, 30, "the start is 60.2 s ahead; it must be 0 to 60 s ahead"},
+                         Case{0, 30, "the start is 0.0 s ago; it must be 0 to 60 s ahead"},
+                         Case{-1.5, 30, "the start is 1.5 s ago; it must be 0 to 60 s ahead"},
+                         Case{1, 0.04, "a run of 0.04 s is shorter than a cycle of 0.1 s"}}) {
+    BenchRobot robot;
+    robot.clock -= milliseconds(200);
+    robot.cycles(2);  // to a second without a fraction, so that differences are exact
+    Order order = robot.order(Order::Kind::Start);
+    order.at_unix_s = robot.unix_s() + of.ahead_s;
+    order.seconds = of.seconds;
+    robot.node.hear(order, robot.now());
+    EXPECT_EQ(robot.state().refused, of.refused) << of.ahead_s;
+    EXPECT_EQ(robot.state().phase, *of.refused == 0 ? Phase::Armed : Phase::Ready) << of.ahead_s;
+    EXPECT_EQ(robot.node.head().seconds, *of.refused == 0 ? of.seconds : 0);
+  }
+}
+
+TEST(RobotNode, RefusesAStartWithAllItsReasons) {
+  BenchRobot robot;
+  robot.node.hear(BatteryMessage{.charge = 0.19});
+  robot.node.set_log_trouble("read-only");
+  robot.node.refuse_order("not JSON");
+  EXPECT_EQ(robot.state().refused, "not JSON");
+  robot.node.driver().set_listeners({{"driver", robot.clock}}, robot.clock);
+  robot.neighbours = false;
+  robot.send_all();
+  robot.node.hear(robot.order(Order::Kind::Kill), robot.now());
+  robot.node.hear(robot.order(Order::Kind::Start), robot.now());
+  EXPECT_EQ(robot.state().refused,
+            "killed by order: restart the node; neighbours: no message yet; "
+            "battery: 19 %, at least 20 % are needed; log: read-only");
+  robot.node.hear(robot.order(Order::Kind::Echo), robot.now());
+  EXPECT_EQ(robot.state().refused, "");
+  EXPECT_TRUE(robot.node.was_killed());
+}
+
+TEST(RobotNode, TicksOncePerPeriodAndAtTheAgreedInstant) {
+  BenchRobot robot;
+  robot.seconds = 1;
+  robot.cycles(2);
+  EXPECT_EQ(robot.node.next_tick(robot.clock + milliseconds(30)), robot.clock + milliseconds(100));
+  EXPECT_EQ(robot.node.next_tick(robot.clock + milliseconds(300)), robot.clock + milliseconds(300));
+  Order order = robot.order(Order::Kind::Start);
+  order.at_unix_s = robot.unix_s() + 0.25;
+  robot.node.hear(order, robot.now());
+  const TimePoint start = robot.clock + milliseconds(250);
+  EXPECT_EQ(robot.node.next_tick(robot.clock), robot.clock + milliseconds(100));
+  robot.cycles(2);
+  EXPECT_EQ(robot.node.next_tick(robot.clock), start);
+  robot.cycle(milliseconds(-50));
+  EXPECT_EQ(robot.state().phase, Phase::Running) << "at the agreed instant";
+  EXPECT_EQ(robot.node.next_tick(robot.clock), start + milliseconds(100));
+  EXPECT_FALSE(robot.cycle(milliseconds(-60)).command) << "too early";
+  robot.cycles(12);
+  EXPECT_EQ(robot.state().phase, Phase::Ended);
+  EXPECT_EQ(robot.node.next_tick(robot.clock), robot.clock + milliseconds(100));
+}
+
+TEST(RobotNode, ASensorMayBeSilentUpToItsLimits) {
+  const NodeSettings settings{.also_needed = {true, true, true, true}};
+  const Flavour chocolate = find_flavour("chocolate", TurnClock::Cycles).value();
+  for (const Feed feed : kAllFeeds) {
+    const std::string name(name_of(feed));
+    const auto row_after = [&](int silent_ms) {
+      BenchRobot robot(settings, kLightMachine, chocolate);
+      robot.light = true;
+      robot.start();
+      robot.cycles(20);
+      *std::array{&robot.ranges, &robot.ground, &robot.neighbours, &robot.light}[index_of(feed)] =
+          false;
+      robot.cycles(silent_ms / 100 - 1);
+      robot.cycle(milliseconds(silent_ms % 100));
+      EXPECT_EQ(robot.state().phase, silent_ms > 1000 ? Phase::Failed : Phase::Running) << name;
+      LogRow row = robot.rows.back();
+      EXPECT_EQ(row.command.left_mps == 0, row.act == Act::Hold);
+      PerFeed<std::optional<double>> ages;
+      ages.fill(static_cast<double>(silent_ms % 100));
+      ages[index_of(feed)] = silent_ms;
+      EXPECT_EQ(row.age_ms, ages) << name;
+      return row;
+    };
+    const int hold_ms = feed == Feed::Proximity ? 300 : 350;
+    EXPECT_EQ(row_after(150).event, "") << name;
+    EXPECT_EQ(row_after(151).event, name + ": silent for 0.15 s");
+    EXPECT_EQ(row_after(hold_ms).act, Act::Step) << name;
+    const LogRow held = row_after(hold_ms + 1);
+    EXPECT_EQ(held.act, Act::Hold) << name;
+    EXPECT_EQ(held.event, fmt::format("{}: silent for 0.{} s", name, hold_ms / 10));
+    EXPECT_EQ(held.command.leds[4], (Rgb{255, 0, 0}));
+    EXPECT_EQ(row_after(1000).event, name + ": silent for 1.00 s");
+    EXPECT_EQ(row_after(1001).event, name + ": silent for 1.00 s");
+  }
+}
+
+TEST(RobotNode, JudgesAHeldCycleAtOnceAndLogsItsReadings) {
+  BenchRobot robot;
+  robot.node.feeds().set_wall_offset(std::chrono::seconds(5));
+  robot.start();
+  robot.cycles(20);
+  robot.ranges = false;
+  robot.cycles(3);
+  robot.ground = false;
+  GroundColorMessage ground{{robot.clock, 0}, 10, 20.6, 30};
+  ground.arrival.at += milliseconds(90);
+  ground.arrival.stamp_ns = (ground.arrival.at.time_since_epoch() + milliseconds(4988)).count();
+  robot.node.feeds().hear(ground);
+  robot.cycle(milliseconds(7));
+  EXPECT_EQ(
+      robot.state().reasons,
+      std::vector<std::string>{"proximity was silent for up to 0.41 s: 1 cycle was not stepped"});
+  const LogRow& row = robot.rows.back();
+  EXPECT_EQ(row.act, Act::Hold);
+  EXPECT_EQ(row.cycle, 24);
+  EXPECT_NEAR(row.clock_s, 1000.2 + 1 + 2.407, 1e-9);
+  EXPECT_NEAR(row.late_ms, 7, 1e-9);
+  EXPECT_NEAR(row.sensed.time_s, 2.407, 1e-9);
+  EXPECT_EQ(row.sensed.ground, (Rgb{10, 21, 30}));
+  EXPECT_EQ(row.ground_as_sent, (RawColor{10, 20.6, 30}));
+  EXPECT_EQ(row.age_ms, (PerFeed<std::optional<double>>{407, 17, 7, std::nullopt}));
+  EXPECT_NEAR(row.stamp_ms[index_of(Feed::Ground)].value(), 12, 1e-6);
+  EXPECT_EQ(row.stamp_ms[index_of(Feed::Neighbours)], std::nullopt);
+}
+
+TEST(RobotNode, CutsOneTreadAloneAndSaysSoBeforeAnOldReading) {
+  const Flavour chocolate = find_flavour("chocolate", TurnClock::Cycles).value();
+  BenchRobot robot({.max_mps = 0.2}, kLightMachine, chocolate);
+  robot.light = true;
+  robot.start();
+  robot.cycles(2);
+  robot.ranges = false;
+  robot.cycles(2);
+  const LogRow& row = robot.rows.back();
+  EXPECT_EQ(row.command.left_mps, 0.2);
+  EXPECT_NEAR(row.command.right_mps, 0, 1e-12);
+  EXPECT_EQ(row.sensed.light_lux, (EightReadings{0, 0, 0, 500, 0, 0, 0, 0}));
+  EXPECT_THAT(row.event, AllOf(StartsWith("speeds cut from 0.3 and "), EndsWith(" m/s")))
+      << "not that ranges are old";
+  EXPECT_EQ(robot.state().reasons,
+            std::vector<std::string>{"speeds were cut to 0.2 m/s in 4 cycles"});
+}
+
+TEST(RobotNode, AnOperatorMayBeSilentUpToItsLimits) {
+  const auto silent_for = [](int ms) {
+    BenchRobot robot;
+    robot.start();
+    robot.cycles(10);
+    robot.alive = false;
+    robot.cycles(ms / 100 - 1);
+    robot.cycle(milliseconds(ms % 100));
+    EXPECT_EQ(robot.state().phase, ms > 1000 ? Phase::Failed : Phase::Running);
+    return robot.speed() > 0;
+  };
+  EXPECT_TRUE(silent_for(300));
+  EXPECT_FALSE(silent_for(301));
+  EXPECT_FALSE(silent_for(1000));
+  EXPECT_FALSE(silent_for(1001));
+}
+
+/// A robot with cycles of 0.125 s, whose times are exact, after 16 s of a run, in which its
+/// operator's clock is right until the last sign of life.
+struct AfterDrift : BenchRobot {
+  explicit AfterDrift(double last_ahead_s) : BenchRobot({.period = milliseconds(125)}) {
+    cycles(2);
+    node.hear(order(Order::Kind::Start), now());
+    cycles(127);
+    operator_ahead_s = last_ahead_s;
+    cycle();
+  }
+};
+
+TEST(RobotNode, AnOperatorsClockMayDriftByOnePartInAThousand) {
+  const std::vector<std::string> none;
+  // A message is valid for 1 s, and there is a drift of 0.016 s.
+  EXPECT_EQ(AfterDrift(1.0155).state().reasons, none);
+  EXPECT_EQ(AfterDrift(1.0165).state().reasons,
+            std::vector<std::string>{"the operator's clock was stepped by +1.02 s at 15.0 s"});
+  for (const double late_s : {1.0155, 1.0165}) {
+    AfterDrift robot(-late_s);
+    const bool counts = late_s == 1.0155;
+    robot.alive = false;
+    robot.cycles(2);
+    EXPECT_EQ(robot.speed() > 0, counts);
+    EXPECT_EQ(robot.state().reasons.empty(), counts);
+    robot.cycle();
+    EXPECT_EQ(robot.speed(), 0);
+    EXPECT_EQ(robot.rows.back().event,
+              counts ? "no message from the operator for 0.38 s"
+                     : "the operator's orders have had times 1.02 s too early for 0.50 s: its "
+                       "clock was set back, or the network delays them");
+    robot.operator_ahead_s = 0;
+    robot.alive = true;
+    robot.cycle();
+    EXPECT_GT(robot.speed(), 0);
+    robot.alive = false;
+    robot.cycles(3);
+    EXPECT_EQ(robot.rows.back().event, "no message from the operator for 0.38 s");
+  }
+  AfterDrift robot(-0.9);  // a late message is not the reference for later ones
+  robot.operator_ahead_s = 0.5;
+  robot.cycle();
+  EXPECT_EQ(robot.state().reasons, none);
+  robot.operator_ahead_s = 1.25;  // but the prompt one before is
+  robot.cycle();
+  EXPECT_EQ(robot.state().reasons, none);
+}
+
+TEST(RobotNode, AClockIsSteppedIfItMovesByMoreThanATenthOfASecond) {
+  for (const double step_s : {-0.11, -0.09, 0.0, 0.09, 0.11}) {
+    BenchRobot robot;
+    robot.wall_ahead_s = 3;  // before the run
+    robot.operator_ahead_s = 3;
+    robot.cycles(2);
+    Order start = robot.order(Order::Kind::Start);
+    start.at_unix_s += 3;
+    robot.node.hear(start, robot.now());
+    robot.cycles(20);
+    robot.wall_ahead_s += step_s;
+    robot.cycles(5);
+    std::vector<std::string> reasons;
+    std::string event;
+    if (std::fabs(step_s) > 0.1) {
+      event = fmt::format("this computer's clock was stepped by {:+.2f} s", step_s);
+      reasons = {event + " at 1.1 s"};
+    }
+    EXPECT_EQ(robot.state().reasons, reasons);
+    for (const LogRow& row : robot.rows)
+      EXPECT_EQ(row.event, row.cycle == 11 ? event : "") << row.cycle;
+  }
+  BenchRobot robot;
+  robot.start();
+  robot.cycles(10);
+  robot.ranges = false;
+  robot.cycle();
+  robot.wall_ahead_s = 1;
+  robot.cycle();
+  EXPECT_EQ(robot.rows.back().event,
+            "proximity: silent for 0.20 s; this computer's clock was stepped by +1.00 s");
+}
+
+TEST(RobotNode, TellsForWhatTheTreadsStoodLongest) {
+  BenchRobot robot({.operator_gone = std::chrono::seconds(2)});
+  robot.start();
+  robot.cycles(10);
+  const auto silence = [&robot](bool BenchRobot::*part, int cycles) {
+    robot.*part = false;
+    robot.cycles(cycles);
+    robot.*part = true;
+    robot.cycles(10);
+  };
+  silence(&BenchRobot::alive, 4);
+  silence(&BenchRobot::alive, 6);
+  silence(&BenchRobot::alive, 5);
+  silence(&BenchRobot::obeys, 4);
+  const std::string of_operator =
+      "the operator was silent, for up to 0.60 s, at 2.4 s: 6 cycles "
+      "were not stepped";
+  EXPECT_THAT(robot.state().reasons,
+              ElementsAre(AllOf(StartsWith("driver: driver does not report what the treads do, for "
+                                           "up to 0.40 s, at 5.5 s: "),
+                                EndsWith("not stepped")),
+                          of_operator));
+  EXPECT_EQ(robot.state().verdict, RunVerdict::Degraded);
+  robot.obeys = false;
+  robot.cycles(15);
+  EXPECT_EQ(robot.state().phase, Phase::Failed);
+  EXPECT_THAT(robot.state().reasons,
+              ElementsAre(StartsWith("driver: driver does not report what the treads do (for "),
+                          of_operator))
+      << "the driver's reason comes once";
+  EXPECT_EQ(robot.node.head().end->driver, RunVerdict::Invalid);
+}
+
+TEST(RobotNode, StopsOnlyARun) {
+  BenchRobot robot;
+  robot.cycle();
+  robot.node.stop("by SIGTERM");
+  EXPECT_EQ(robot.state().phase, Phase::Ready);
+  EXPECT_THAT(robot.state().reasons, IsEmpty());
+  robot.seconds = 1;
+  robot.start();
+  robot.node.stop("by SIGTERM");
+  EXPECT_THAT(robot.state().reasons, ElementsAre("stopped by SIGTERM")) << "before a cycle";
+  robot.node.stop("again");
+  EXPECT_THAT(robot.state().reasons, ElementsAre("stopped by SIGTERM"));
+  robot.run = "run08";
+  robot.start();
+  Order stop = robot.order(Order::Kind::Stop);
+  stop.run.clear();
+  robot.cycle();
+  robot.node.hear(stop, robot.now());
+  EXPECT_THAT(robot.state().reasons, ElementsAre("stopped by order after 0.1 s of 1.0 s"));
+}
+
+TEST(RobotNode, InLockStepLogsWhatTheWorldSent) {
+  const Flavour chocolate = find_flavour("chocolate", TurnClock::Cycles).value();
+  BenchRobot robot({.max_mps = kMaxWheelSpeed_mps, .lock_step_run = "world"}, kLightMachine,
+                   chocolate);
+  SensesMessage message{.seed = 7, .cycle = 0};
+  EXPECT_FALSE(value_of(robot.node.answer(message, robot.now())).command);
+  EXPECT_EQ(robot.state().phase, Phase::Idle) << "there was no run to end";
+  message = {.seed = 7,
+             .cycle = 1,
+             .time_s = 0.125,
+             .ranges_m = {1, 2, 3, 4, 5, 6, 7, 8},
+             .color = {-3, 127.9, 300},
+             .light_lux = {0, 0, 0, 500, 0, 0, 0, 1},
+             .neighbours = {{0.5, 0.6, -0.8}, {0.75, 1, 0}}};
+  const Decision decision = value_of(robot.node.answer(message, robot.now()));
+  LogRow row;
+  row.cycle = 1;
+  row.clock_s = 1000;
+  row.command = decision.command.value();
+  row.sensed = {.time_s = 0.125,
+                .proximity_m = message.ranges_m,
+                .ground = {0, 127, 255},
+                .neighbours = {{0.5, 0.6, -0.8}, {0.75, 1, 0}},
+                .light_lux = message.light_lux};
+  row.ground_as_sent = {-3, 127.9, 300};
+  EXPECT_EQ(text_of(decision.row.value()), text_of(row));
+  EXPECT_GT(row.command.left_mps, row.command.right_mps) << "towards the light";
+  const LogHead head = robot.node.head();
+  EXPECT_EQ(head.run, "world-seed7");
+  EXPECT_EQ(head.seconds, 0);
+  EXPECT_TRUE(head.lock_step);
+  robot.node.end_run();
+  EXPECT_EQ(robot.node.head().end, (RunEnd{.state = "ended", .stepped = 1}));
+
+  const auto complaint = [&](const char* wrong) {
+    EXPECT_EQ(why_not(robot.node.answer(message, robot.now())).message, wrong);
+    EXPECT_EQ(robot.state().phase, Phase::Failed);
+    EXPECT_THAT(robot.state().reasons, ElementsAre(wrong));
+  };
+  message.cycle = 2;
+  complaint("cycle 2 of seed 7 came, but no run is in progress");
+  message.cycle = 1;
+  EXPECT_TRUE(robot.node.answer(message, robot.now()));
+  message = {.seed = 8, .cycle = 2};
+  complaint("cycle 2 of seed 8 came after cycle 1 of seed 7");
+  message.cycle = 0;
+  EXPECT_TRUE(robot.node.answer(message, robot.now()));
+  EXPECT_EQ(robot.state().phase, Phase::Failed) << "the run has not ended well";
+}
+
+TEST(RobotNode, StandsWhenItsMachineGivesNoSpeed) {
+  BenchRobot robot({}, "--nstates 1 --s0 2 --att0 2");
+  SensesMessage message{.seed = 7, .cycle = 1, .neighbours = {{std::nan(""), 1, 0}}};
+  const Decision decision = value_of(robot.node.answer(message, robot.now()));
+  Command red;
+  red.leds.fill({255, 0, 0});
+  EXPECT_EQ(decision.command, red);
+  EXPECT_EQ(decision.row.value().command, red);
+  EXPECT_EQ(decision.row->event, "the controller's speeds are not finite numbers");
+  EXPECT_EQ(robot.state().phase, Phase::Failed);
+  EXPECT_THAT(robot.state().reasons, ElementsAre("the controller's speeds are not finite numbers"));
+  EXPECT_EQ(within_limits({-0.2, 0.5, {}}, 0.35), (Command{-0.2, 0.35, {}}));
+  EXPECT_EQ(within_limits({0.5, -0.5, {}}, 0), (Command{}));
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #include "robot/runtime/replay.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "tests/robot/runtime/bench_robot.h"
 #include "tests/support/checks.h"
@@ -69,39 +72,75 @@ TEST(LogReplay, SaysAtWhichCycleSomethingDiffers) {
   const auto difference = [&record](const auto& change) {
     RunRecord changed = record;
     change(changed);
-    return replay_log(changed).value().difference.value_or(LogReplay::Difference{});
+    const auto found = value_of(replay_log(changed)).difference.value_or(LogReplay::Difference{});
+    return std::to_string(found.cycle) + ": " + found.what;
   };
-  const auto speeds = difference([](RunRecord& of) {
-    of.rows[40].command.left_mps = std::nextafter(of.rows[40].command.left_mps, 1);
-  });
-  EXPECT_EQ(speeds.cycle, 41);
-  EXPECT_THAT(speeds.what, HasSubstr("speeds"));
-  EXPECT_GT(difference([](RunRecord& of) { of.head.seed = 12; }).cycle, 0);
-  EXPECT_GT(difference([](RunRecord& of) { of.head.robot_index = 1; }).cycle, 0);
-  EXPECT_THAT(difference([](RunRecord& of) { of.rows[40].state += 1; }).what, HasSubstr("state"));
-  EXPECT_THAT(difference([](RunRecord& of) { of.rows[40].drawn += 1; }).what,
-              HasSubstr("random numbers"));
-  EXPECT_THAT(
-      difference([](RunRecord& of) { of.rows.insert(of.rows.begin() + 41, of.rows[40]); }).what,
-      HasSubstr("comes after"));
+  const LogRow& row = record.rows[40];
+  ASSERT_EQ(row.cycle, 41);
   for (double Command::*tread : {&Command::left_mps, &Command::right_mps}) {
-    const auto moved = difference([tread](RunRecord& of) {
-      std::ranges::find(of.rows, Act::Hold, &LogRow::act)->command.*tread = 0.1;
-    });
-    EXPECT_THAT(moved.what, HasSubstr("held"));
+    LogRow changed = row;
+    changed.command.*tread = std::nextafter(changed.command.*tread, 1);
+    EXPECT_EQ(difference([&](RunRecord& of) { of.rows[40] = changed; }),
+              fmt::format("41: the log has the speeds {} and {} m/s, the controller gives {} and "
+                          "{} m/s",
+                          changed.command.left_mps, changed.command.right_mps, row.command.left_mps,
+                          row.command.right_mps));
+  }
+  EXPECT_EQ(difference([](RunRecord& of) { of.rows[40].command.leds[3].b += 1; }),
+            "41: other LEDs than the controller's");
+  EXPECT_EQ(
+      difference([](RunRecord& of) { of.rows[40].state += 1; }),
+      fmt::format("41: the log has state {}, the controller is in {}", row.state + 1, row.state));
+  EXPECT_EQ(difference([](RunRecord& of) { of.rows[40].drawn += 1; }),
+            fmt::format("41: the log has {} random numbers, the controller drew {}", row.drawn + 1,
+                        row.drawn));
+  EXPECT_NE(difference([](RunRecord& of) { of.head.seed = 12; }), "0: ");
+  EXPECT_NE(difference([](RunRecord& of) { of.head.robot_index = 1; }), "0: ");
+  EXPECT_NE(difference([](RunRecord& of) { of.head.max_mps = 0.1; }), "0: ");
+  EXPECT_EQ(difference([](RunRecord& of) { of.rows.insert(of.rows.begin() + 41, of.rows[40]); }),
+            "41: cycle 41 comes after cycle 41");
+  EXPECT_EQ(difference([](RunRecord& of) { of.rows[0].cycle = 0; }),
+            "0: cycle 0 comes after cycle 0");
+  for (double Command::*tread : {&Command::left_mps, &Command::right_mps}) {
+    const auto cycle = std::ranges::find(record.rows, Act::Hold, &LogRow::act)->cycle;
+    EXPECT_EQ(difference([tread](RunRecord& of) {
+                std::ranges::find(of.rows, Act::Hold, &LogRow::act)->command.*tread = 0.1;
+              }),
+              std::to_string(cycle) + ": a cycle that was held has a speed");
   }
 }
 
+TEST(LogReplay, HasTheFlavourOfItsHead) {
+  Flavour mine = watermelon();
+  mine.name = "mine";
+  mine.neighbours.attraction_gain = 3;
+  BenchRobot robot({}, "--nstates 1 --s0 2 --att0 2", mine);
+  robot.seconds = 5;
+  robot.start();
+  robot.cycles(55);
+  RunRecord record{robot.node.head(), robot.rows};
+  ASSERT_FALSE(record.head.own_flavour.empty());
+  const auto replay = value_of(replay_log(record));
+  EXPECT_FALSE(replay.difference) << replay.difference->what;
+  EXPECT_EQ(replay.stepped, 49);
+  record.head.own_flavour = "wings = 2\n";
+  EXPECT_THAT(why_not(replay_log(record)).message, HasSubstr("begin with its format"));
+}
+
 TEST(LogReplay, RefusesAHeadThatCannotBeRead) {
-  RunRecord record = record_of(kCuriousMachine, TurnClock::Cycles);
-  record.head.flavour = "strawberry";
-  EXPECT_FALSE(replay_log(record));
-  record.head.flavour = "watermelon";
-  record.head.turn_clock = "minutes";
-  EXPECT_FALSE(replay_log(record));
-  record.head.turn_clock = "cycles";
-  record.head.machine = "--nstates 9";
-  EXPECT_FALSE(replay_log(record));
+  const LogHead head = record_of(kCuriousMachine, TurnClock::Cycles).head;
+  const auto refusal = [&head](std::string LogHead::*part, const char* text) {
+    RunRecord record{head, {}};
+    EXPECT_TRUE(replay_log(record));
+    record.head.*part = text;
+    return why_not(replay_log(record)).message;
+  };
+  EXPECT_THAT(refusal(&LogHead::flavour, "strawberry"), HasSubstr("strawberry"));
+  EXPECT_EQ(refusal(&LogHead::turn_clock, "minutes"),
+            "there is no turn clock `minutes`; known are cycles and seconds");
+  EXPECT_THAT(refusal(&LogHead::machine, "--nstates 9"), Not(IsEmpty()));
+  EXPECT_THAT(refusal(&LogHead::own_robot, "wings = 2\n"),
+              StartsWith("`own_robot` is not a robot: "));
 }
 
 }  // namespace

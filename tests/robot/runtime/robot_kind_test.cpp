@@ -1,5 +1,8 @@
 #include "robot/runtime/robot_kind.h"
 
+#include <optional>
+#include <string>
+
 #include "sim/files/robot_file.h"
 #include "tests/robot/runtime/rover.h"
 #include "tests/support/checks.h"
@@ -39,23 +42,36 @@ TEST(RobotKind, IsTheSameForRvrsOfAnyOutline) {
 TEST(RobotKind, IsDrivenWhenItsSensorsGiveWhatMessagesCarry) {
   EXPECT_EQ(no_node_drives(rvr()), std::nullopt);
   EXPECT_EQ(no_node_drives(rover()), std::nullopt);
-  EXPECT_THAT(no_node_drives(value_of(find_robot("epuck", {}))).value_or(""),
-              AllOf(HasSubstr("the robot `epuck` has proximity sensors that give strengths"),
-                    HasSubstr("swarmsmith evaluate")));
-  Robot robot = rover();
-  robot.proximity.rays_deg.pop_back();
-  EXPECT_THAT(no_node_drives(robot).value_or(""), HasSubstr("7 proximity and 7 light sensors"));
-  robot.proximity.rays_deg.resize(24);
-  EXPECT_THAT(no_node_drives(robot).value_or(""), HasSubstr("24 proximity and 24 light sensors"));
-  robot = rover();
-  robot.light.reading = LightRing::Reading::Strength;
-  EXPECT_THAT(no_node_drives(robot).value_or(""), HasSubstr("light sensors that give strengths"));
-  robot = rover();
-  robot.ground.reading = GroundSensor::Reading::Vote;
-  EXPECT_THAT(no_node_drives(robot).value_or(""), HasSubstr("ground sensors that vote"));
-  robot = rover();
-  robot.neighbours.source = NeighbourSensor::Source::Radio;
-  EXPECT_THAT(no_node_drives(robot).value_or(""), HasSubstr("a radio"));
+  EXPECT_EQ(no_node_drives(value_of(find_robot("epuck", {}))),
+            "the robot `epuck` has proximity sensors that give strengths, and nodes drive robots "
+            "that measure 8 distances, 8 values in lux, the colour of the floor and the places of "
+            "others; `swarmsmith evaluate` simulates it");
+  const auto of_rover = [](const auto& change) {
+    Robot robot = rover();
+    change(robot);
+    const std::string why = no_node_drives(robot).value_or("the robot `rover` has nothing, and");
+    const std::string begin = "the robot `rover` has ";
+    EXPECT_THAT(why, StartsWith(begin));
+    return why.substr(begin.size(), why.find(", and") - begin.size());
+  };
+  EXPECT_EQ(of_rover([](Robot& of) { of.proximity.rays_deg.pop_back(); }),
+            "7 proximity and 7 light sensors");
+  EXPECT_EQ(of_rover([](Robot& of) { of.proximity.rays_deg.resize(24); }),
+            "24 proximity and 24 light sensors");
+  EXPECT_EQ(of_rover([](Robot& of) { of.light.angles_deg = {0}; }),
+            "8 proximity and 1 light sensor");
+  EXPECT_EQ(of_rover([](Robot& of) {
+              of.light.angles_deg = of.proximity.rays_deg;
+              of.proximity.rays_deg.pop_back();
+            }),
+            "7 proximity and 8 light sensors");
+  EXPECT_EQ(of_rover([](Robot& of) { of.light.angles_deg = of.proximity.rays_deg; }), "nothing");
+  EXPECT_EQ(of_rover([](Robot& of) { of.light.reading = LightRing::Reading::Strength; }),
+            "light sensors that give strengths");
+  EXPECT_EQ(of_rover([](Robot& of) { of.ground.reading = GroundSensor::Reading::Vote; }),
+            "ground sensors that vote");
+  EXPECT_EQ(of_rover([](Robot& of) { of.neighbours.source = NeighbourSensor::Source::Radio; }),
+            "a radio for neighbours");
 }
 
 }  // namespace

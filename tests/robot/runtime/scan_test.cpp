@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "base/math.h"
 
@@ -110,20 +113,89 @@ TEST(Scan, TakesWhatIsNoReturnAsNothing) {
 }
 
 TEST(Scan, WithoutASenseIsRefused) {
+  const auto refusal = [](const auto& change) {
+    RayRanges rays{};
+    ScanMessage scan = scan_of(10, 0, 0.1, 0);
+    change(scan);
+    return resample(scan, 0, rays).value_or("");
+  };
+  EXPECT_EQ(refusal([](ScanMessage& of) { of.ranges_m.clear(); }), "a scan without values");
+  const auto by_increment = [&refusal](double increment) {
+    return refusal([increment](ScanMessage& of) { of.angle_increment_rad = increment; });
+  };
+  const std::string step = "a scan with an angle_increment of ";
+  EXPECT_EQ(by_increment(0), step + "0.000000 rad");
+  EXPECT_EQ(by_increment(std::nan("")), step + "nan rad");
+  EXPECT_EQ(by_increment(-1e-5), step + "-0.000010 rad");
+  EXPECT_EQ(by_increment(1.1e-5), "");
+  EXPECT_EQ(by_increment(-0.99), "");
+  EXPECT_EQ(by_increment(1), step + "1.000000 rad");
+  EXPECT_EQ(by_increment(-4), step + "-4.000000 rad");
+  const auto by_first = [&refusal](double first) {
+    return refusal([first](ScanMessage& of) { of.angle_min_rad = first; });
+  };
+  EXPECT_EQ(by_first(1e6), "");
+  EXPECT_EQ(by_first(-1e6), "");
+  EXPECT_EQ(by_first(1.01e6), "a scan whose angle_min is too large for an angle");
+  EXPECT_EQ(by_first(-1e300), "a scan whose angle_min is too large for an angle");
+  EXPECT_EQ(by_first(kInfinity), "a scan whose angle_min is not a number");
+  EXPECT_EQ(by_first(std::nan("")), "a scan whose angle_min is not a number");
+}
+
+TEST(Scan, HasRangesWithinItsLimits) {
+  ScanMessage scan = scan_of(kLidarRays, 0, 2 * kPi / kLidarRays, 0);
+  scan.range_min_m = 0.5;
+  scan.range_max_m = 4;
+  scan.ranges_m[0] = 0.5;
+  scan.ranges_m[1] = 0.49;
+  scan.ranges_m[2] = 4;
+  scan.ranges_m[3] = 4.01;
   RayRanges rays{};
-  ScanMessage scan = scan_of(10, 0, 0.1, 0);
-  scan.ranges_m.clear();
-  EXPECT_TRUE(resample(scan, 0, rays));
-  for (const double increment : {0.0, std::nan(""), 1e-9, 4.0}) {
-    scan = scan_of(10, 0, 0.1, 0);
-    scan.angle_increment_rad = increment;
-    EXPECT_TRUE(resample(scan, 0, rays)) << increment;
+  ASSERT_EQ(resample(scan, 0, rays), std::nullopt);
+  EXPECT_EQ(rays[0], 0.5);
+  EXPECT_EQ(rays[1], kInfinity);
+  EXPECT_EQ(rays[2], 4);
+  EXPECT_EQ(rays[3], kInfinity);
+  scan.range_min_m = 0;
+  scan.ranges_m[1] = 0;
+  ASSERT_EQ(resample(scan, 0, rays), std::nullopt);
+  EXPECT_EQ(rays[1], kInfinity) << "0 is no distance";
+}
+
+/// The value nearest to a ray, among all values of several turns.
+TEST(Scan, OfMoreThanOneTurnGivesTheNearestValue) {
+  for (const double increment : {0.0131, -0.0131, 0.0377}) {
+    for (const double turns : {0.3, 1.4, 2.6}) {
+      const auto values = static_cast<std::size_t>(turns * 2 * kPi / std::fabs(increment));
+      ScanMessage scan = scan_of(values, 0.71, increment, 0);
+      for (std::size_t i = 0; i < values; ++i)
+        scan.ranges_m[i] = 0.5 + 0.001 * static_cast<double>(i);
+      RayRanges rays{};
+      ASSERT_EQ(resample(scan, 0, rays), std::nullopt);
+      for (int ray = 0; ray < kLidarRays; ++ray) {
+        double least = 0.5 * std::fabs(increment);
+        double wanted = kInfinity;
+        for (std::size_t i = 0; i < values; ++i) {
+          const double away = std::fabs(std::remainder(
+              0.71 + static_cast<double>(i) * increment - 2 * kPi * ray / kLidarRays, 2 * kPi));
+          if (away >= least) continue;
+          least = away;
+          wanted = scan.ranges_m[i];
+        }
+        EXPECT_EQ(rays[static_cast<std::size_t>(ray)], wanted) << increment << turns << ray;
+      }
+    }
   }
-  scan = scan_of(10, 0, 0.1, 0);
-  for (const double first : {kInfinity, 1e30, -1e300}) {
-    scan.angle_min_rad = first;
-    EXPECT_TRUE(resample(scan, 0, rays)) << first;
-  }
+}
+
+TEST(Scan, OfTwoTurnsGivesTheEarlierOfTwoEqualDistances) {
+  constexpr std::size_t kValues = 8;
+  ScanMessage scan = scan_of(2 * kValues, 0, 2 * kPi / kValues, 0);
+  scan.ranges_m.assign(kValues, 1);
+  scan.ranges_m.resize(2 * kValues, 2);
+  RayRanges rays{};
+  ASSERT_EQ(resample(scan, 0, rays), std::nullopt);
+  EXPECT_EQ(rays[0], 1);  // the angles of other rays are rounded
 }
 
 }  // namespace
