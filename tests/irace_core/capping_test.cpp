@@ -34,6 +34,9 @@ TEST(Capping, BoundsACandidateByWhatItHasLeft) {
   EXPECT_EQ(candidate_bound(2, 3, 4.5, rules), 1.51);
   EXPECT_EQ(candidate_bound(2, 3, 9, rules), 2);  // nothing left: the elites' time
   EXPECT_EQ(candidate_bound(9, 3, 1, rules), 10);
+  const TimeRules quarters{.bound_max = 10, .bound_digits = 2, .min_measurable_time = 0.25};
+  EXPECT_EQ(candidate_bound(2, 3, 6, quarters), 0.25);
+  EXPECT_EQ(candidate_bound(2, 3, 6.25, quarters), 2) << "0 would be no bound";
   EXPECT_EQ(instance_bound(2, rules), 2.01);
   EXPECT_EQ(instance_bound(10, rules), 10);
 }
@@ -43,7 +46,10 @@ TEST(Capping, ChargesRunsThatWereStopped) {
   EXPECT_EQ(capped_cost(3, 3, 4, rules), 3);
   EXPECT_EQ(capped_cost(4, 4, 4, rules), 10);     // stopped by its bound
   EXPECT_EQ(capped_cost(10, 10, 10, rules), 50);  // by the largest
+  EXPECT_EQ(capped_cost(9.5, 9.5, 10, rules), 9.5);
+  EXPECT_EQ(capped_cost(1, 10, 10, rules), 1);  // the largest bound is no timeout
   EXPECT_EQ(capped_cost(kRejects, 1, 4, rules), kRejects);
+  EXPECT_EQ(capped_cost(-kRejects, 4, 4, rules), -kRejects);
   rules.bound_as_timeout = false;
   EXPECT_EQ(capped_cost(4, 4, 4, rules), 4);
 }
@@ -56,6 +62,10 @@ TEST(Capping, FindsThoseAboveTheElites) {
   // Without elites the best two stand in for them: 2 and 3.
   EXPECT_THAT(dominated(means, {}, CappingType::Worst, 2), ElementsAre(1U, 3U, 4U));
   EXPECT_THAT(dominated(means, elites, CappingType::Best, 5), IsEmpty());
+  EXPECT_THAT(dominated(means, elites, CappingType::Best, 4), ElementsAre(1U, 2U, 3U, 4U));
+  EXPECT_THAT(dominated(std::vector<double>{1, 1 + 1e-5, 1 + 2e-5}, {}, CappingType::Best, 1),
+              ElementsAre(2U))
+      << "a hundred thousandth is tolerated";
 }
 
 /// Pair 4 is new, pairs 1 to 3 are past.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -224,7 +225,9 @@ TEST(IteratedRace, SaysTheSmallestBudgetThatWorks) {
   scenario.max_experiments = 10;
   const auto refused = IteratedRace::start(small_space(), scenario);
   ASSERT_FALSE(refused.has_value());
-  EXPECT_THAT(refused.error().message, HasSubstr("180"));
+  EXPECT_EQ(to_string(refused.error()),
+            "max_experiments: a budget of 10 experiments is too small: with these settings it must "
+            "be at least 180");
   scenario.max_experiments = 179;
   EXPECT_FALSE(IteratedRace::start(small_space(), scenario).has_value());
   scenario.max_experiments = 180;
@@ -319,8 +322,9 @@ TEST(IteratedRace, FailsWhenEverythingIsRejected) {
     return std::numeric_limits<double>::infinity();
   });
   ASSERT_TRUE(race.failure().has_value());
-  EXPECT_THAT(race.failure()->message, HasSubstr("rejected"));
+  EXPECT_EQ(race.failure()->message, "every configuration was rejected");
   EXPECT_THAT(race.elites(), IsEmpty());
+  EXPECT_THAT(race.alive(), IsEmpty());
 }
 
 /// Elites of earlier races do not help: they were rejected, too, and what lost to them is not
@@ -421,7 +425,8 @@ TEST(IteratedRace, ReportsForbiddenGivenConfigurationsWithoutRacingThem) {
   auto race = IteratedRace::start(space, small_scenario(), given).value();
   const auto events = run_to_end(race, synthetic_cost);
   ASSERT_EQ(only<RaceWarning>(events).size(), 1U);
-  EXPECT_THAT(only<RaceWarning>(events).front().text, HasSubstr("configuration 1 is forbidden"));
+  EXPECT_EQ(only<RaceWarning>(events).front().text,
+            "initial configuration 1 is forbidden and takes no part in the races");
   EXPECT_EQ(only<ConfigurationSampled>(events).front().id, 1);  // ids have no gaps
   std::set<std::int64_t> raced;
   for (const RaceStep& step : only<RaceStep>(events))
@@ -449,8 +454,12 @@ TEST(IteratedRace, SaysHowManyGivenConfigurationsHaveNoRoom) {
       text += warning.text + "; ";
     return text;
   };
-  EXPECT_THAT(warnings(10), Not(HasSubstr("no room")));
-  EXPECT_THAT(warnings(12), HasSubstr("only 10 of the 12 initial configurations take part"));
+  const std::string forbidden =
+      "initial configuration 1 is forbidden and takes no part in the races; ";
+  EXPECT_EQ(warnings(10), forbidden);
+  EXPECT_EQ(warnings(12), forbidden +
+                              "only 10 of the 12 initial configurations take part: the "
+                              "first race has no room for more; ");
 }
 
 TEST(IteratedRace, UsesFreshPairsInEachRaceWithoutElitism) {
@@ -550,6 +559,110 @@ TEST(IteratedRace, EndsWithTheRepairThatLeavesTheSpace) {
   ASSERT_TRUE(race.failure().has_value());
   EXPECT_THAT(to_string(*race.failure()), HasSubstr("x = 11"));
   EXPECT_EQ(calls, 101);
+}
+
+/// Each round of the second race asks the repair for what is still missing, and a hundred rounds
+/// give nothing.
+TEST(IteratedRace, GivesUpWhenAHundredRoundsGiveOnlyForbiddenConfigurations) {
+  const ParameterSpace space = space_of(
+      {make_categorical("kind", {"a", "b"}), make_real("x", 0, 10)}, {equals("kind", "b")});
+  bool forbids = false;
+  int calls = 0;
+  const Repair repair = [&](const Configuration& sampled) -> Expected<Configuration> {
+    Configuration changed = sampled;
+    changed.set(0, forbids ? 1 : 0);
+    calls += forbids ? 1 : 0;
+    return changed;
+  };
+  auto race = IteratedRace::start(space, small_scenario(), {}, repair).value();
+  forbids = true;
+  run_to_end(race, synthetic_cost);
+  ASSERT_TRUE(race.failure().has_value());
+  EXPECT_EQ(to_string(*race.failure()),
+            "nearly all that is sampled is forbidden: the constraints are too strict; forbid less, "
+            "or narrow the domains instead");
+  EXPECT_GT(calls, 0);
+  EXPECT_EQ(calls % 100, 0);
+  EXPECT_NE(calls % 101, 0);
+}
+
+TEST(IteratedRace, SaysWhatItNeedsForAFirstRace) {
+  const auto complaint = [](ParameterSpace space, const std::function<void(Scenario&)>& change) {
+    Scenario scenario = small_scenario();
+    change(scenario);
+    return complaint_of(IteratedRace::start(std::move(space), scenario));
+  };
+  EXPECT_EQ(complaint(space_of({make_real("x", 0, 1)},
+                               {call(Operation::LessEqual, name("x"), number(1))}),
+                      [](Scenario&) {}),
+            "no configuration that is not forbidden was found: the constraints are too strict; "
+            "forbid less, or narrow the domains instead");
+  const std::vector<std::string> three{"a", "b", "c"};
+  EXPECT_EQ(complaint(space_of({make_categorical("c", three)}),
+                      [](Scenario& s) { s.min_nb_survival = 3; }),
+            "only 3 different configurations were found, and a race needs more than 3, which "
+            "survive (min_nb_survival): let fewer survive, or give the parameters more values");
+  EXPECT_EQ(complaint(space_of({make_categorical("c", three)}),
+                      [](Scenario& s) { s.min_nb_survival = 2; }),
+            "");
+  EXPECT_EQ(complaint(small_space(), [](Scenario& s) { s.nb_configurations = 1000; }),
+            "not even one race can be run: not enough budget for the number of configurations "
+            "asked for (nb_configurations is 1000, and 1500 experiments allow 166): give a larger "
+            "budget, or ask for fewer configurations");
+}
+
+TEST(IteratedRace, WarnsOfOptionsThatItChanges) {
+  const auto warnings = [](ParameterSpace space, const std::function<void(Scenario&)>& change) {
+    Scenario scenario = small_scenario();
+    change(scenario);
+    auto race = value_of(IteratedRace::start(std::move(space), scenario));
+    std::string text;
+    for (const RaceWarning& warning : only<RaceWarning>(race.take_events()))
+      text += warning.text + "; ";
+    return text;
+  };
+  EXPECT_EQ(warnings(small_space(), [](Scenario&) {}), "");
+  EXPECT_EQ(warnings(small_space(), [](Scenario& s) { s.first_test = s.mu = 10; }), "");
+  EXPECT_EQ(warnings(small_space(), [](Scenario& s) { s.first_test = 10; }), "")
+      << "the default value of mu";
+  EXPECT_EQ(warnings(small_space(), [](Scenario& s) { s.first_test = 10, s.mu = 7; }),
+            "mu is 10 in place of 7: it cannot be less than the pairs before the first test; ");
+  EXPECT_EQ(warnings(small_space(), [](Scenario& s) { s.elitist = s.postselection = false; }), "");
+  EXPECT_EQ(warnings(small_space(), [](Scenario& s) { s.elitist = false; }),
+            "there is no post-selection race, since the races are not elitist; ");
+  const auto many = [](std::size_t count) {
+    std::vector<Parameter> parameters;
+    for (std::size_t i = 0; i < count; ++i)
+      parameters.push_back(make_categorical("p" + std::to_string(i), {"a", "b"}));
+    return space_of(std::move(parameters));
+  };
+  const auto enough = [](Scenario& s) { s.max_experiments = 5000; };
+  EXPECT_EQ(warnings(many(1111), enough), "");
+  EXPECT_EQ(warnings(many(1112), enough),
+            "the first configurations are uniform draws: there are Sobol points for 1111 "
+            "parameters at most; ");
+}
+
+/// In some later race, a model draws an x for which y has no value.
+TEST(IteratedRace, EndsWithTheEmptyDomainOfALaterRace) {
+  const ParameterSpace space =
+      space_of({make_real("x", 0, 1),
+                {"y", "", Real{0.0, call(Operation::Subtract, name("x"), number(0.003))}, {}}});
+  int failed = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    auto race = IteratedRace::start(space, small_scenario(seed));
+    if (!race) continue;
+    const auto events = run_to_end(*race, [](const Configuration& c, const Experiment& wanted) {
+      return c[0] + 0.01 * static_cast<double>(wanted.pair % 3);
+    });
+    if (!race->failure()) continue;
+    ++failed;
+    EXPECT_EQ(race->failure()->where, "y");
+    EXPECT_EQ(only<RaceFinished>(events).front().reason, to_string(*race->failure()));
+    EXPECT_THAT(only<RaceFinished>(events).front().elites, IsEmpty());
+    EXPECT_THAT(race->wanted(), IsEmpty());
+  }
+  EXPECT_GT(failed, 0);
 }
 
 }  // namespace

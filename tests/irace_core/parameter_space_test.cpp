@@ -1,5 +1,10 @@
 #include "irace_core/parameter_space.h"
 
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "irace_core/internal/rounding.h"
 #include "tests/irace_core/spaces.h"
 #include "tests/support/checks.h"
@@ -34,24 +39,88 @@ TEST(ParameterSpace, CountsOnlyParametersThatVary) {
 }
 
 TEST(ParameterSpace, RefusesDomainsThatMakeNoSense) {
-  EXPECT_THAT(refusal({make_real("r", 1, 1)}), HasSubstr("below the upper"));
-  EXPECT_THAT(refusal({make_integer("i", 1.5, 3)}), HasSubstr("not a whole number"));
-  EXPECT_THAT(refusal({make_real("r", 0, 1, true)}), HasSubstr("must be positive"));
-  EXPECT_THAT(refusal({make_real("r", 0, 0.00001)}), HasSubstr("it needs digits = 5"));
-  EXPECT_THAT(refusal({make_real("r", 0, 0.12345)}), HasSubstr("it needs digits = 5"));
+  const std::string order = ": the lower bound must be below the upper one";
+  EXPECT_EQ(refusal({make_real("r", 1, 1)}), "r" + order);
+  EXPECT_EQ(refusal({make_integer("i", 2, 1)}), "i" + order);
+  EXPECT_EQ(refusal({make_integer("i", 1, 2)}), "accepted");
+  EXPECT_EQ(refusal({make_integer("i", 1.5, 3)}), "i: the bound 1.5 is not a whole number");
+  EXPECT_EQ(refusal({make_integer("i", 1, 3.5)}), "i: the bound 3.5 is not a whole number");
+  EXPECT_EQ(refusal({make_real("r", 0, 1, true)}), "r: a logarithmic bound must be positive");
+  EXPECT_EQ(refusal({make_real("r", 0.0001, 1, true)}), "accepted");
+  EXPECT_EQ(refusal({make_real("r", 0, HUGE_VAL)}), "r: a bound is not finite");
+  EXPECT_EQ(refusal({make_real("r", -HUGE_VAL, 0)}), "r: a bound is not finite");
+  EXPECT_EQ(refusal({make_real("r", 0, 0.00001)}),
+            "r: the bound 0.00001 does not fit digits = 4; it needs digits = 5");
+  EXPECT_EQ(refusal({make_real("r", -0.12345, 1)}),
+            "r: the bound -0.12345 does not fit digits = 4; it needs digits = 5");
+  EXPECT_EQ(refusal({make_real("r", 0, 0.1234567)}, 2),
+            "r: the bound 0.1234567 does not fit digits = 2; it needs digits = 7");
   EXPECT_EQ(refusal({make_real("r", 0, 0.12345)}, 5), "accepted");
-  EXPECT_THAT(refusal({make_categorical("c", {"a", "a"})}), HasSubstr("twice"));
-  EXPECT_THAT(refusal({make_ordinal("o", {"1", "10", "2"})}), HasSubstr("increase"));
-  EXPECT_THAT(refusal({make_categorical("c", {})}), HasSubstr("empty"));
+  EXPECT_EQ(refusal({make_real("r", 0.0001, 0.0002)}), "accepted");
+  EXPECT_EQ(refusal({make_categorical("c", {"a", "b", "a"})}), "c: the value 'a' occurs twice");
+  EXPECT_EQ(refusal({make_ordinal("o", {"b", "b"})}), "o: the value 'b' occurs twice");
+  EXPECT_EQ(refusal({make_categorical("c", {})}), "c: the domain is empty");
+  EXPECT_EQ(refusal({make_ordinal("o", {"1", "10", "2"})}),
+            "o: the values of an ordinal parameter must increase");
+  EXPECT_EQ(refusal({make_ordinal("o", {"1", "1.0", "2"})}), "accepted");
+  EXPECT_EQ(refusal({make_ordinal("o", {"10", "few", "2"})}), "accepted") << "not all are numbers";
 }
 
 TEST(ParameterSpace, RefusesNamesThatMakeNoSense) {
-  EXPECT_THAT(refusal({make_real("a b", 0, 1)}), HasSubstr("letters"));
+  for (const std::string accepted : {"azAZ09_.", "größe"})
+    EXPECT_EQ(refusal({make_real(accepted, 0, 1)}), "accepted") << accepted;
+  const std::string rule = ": a name consists of letters, digits, '_' and '.'";
+  EXPECT_EQ(refusal({make_real("", 0, 1)}), rule.substr(2));
+  for (const char sign : std::string(" -/:@[^`{"))
+    EXPECT_EQ(refusal({make_real(std::string("a") + sign, 0, 1)}), std::string("a") + sign + rule);
   EXPECT_THAT(refusal({make_real("a", 0, 1), make_real("a", 0, 1)}), HasSubstr("twice"));
-  EXPECT_THAT(refusal({active_when(make_real("a", 0, 1), equals("b", "x"))}),
-              HasSubstr("no parameter 'b'"));
+  EXPECT_EQ(refusal({active_when(make_real("a", 0, 1), equals("b", "x"))}),
+            "a: there is no parameter 'b'");
+  EXPECT_EQ(refusal({{"a", "", Integer{0.0, name("b")}, {}}}), "a: there is no parameter 'b'");
+  EXPECT_EQ(refusal({{"a", "", Real{name("b"), 1.0}, {}}}), "a: there is no parameter 'b'");
   EXPECT_THAT(refusal({}), HasSubstr("needs a parameter"));
   EXPECT_THAT(refusal({make_categorical("c", {"x"})}), HasSubstr("single value"));
+}
+
+TEST(ParameterSpace, RefusesBoundsThatAreNotNumbers) {
+  const auto refused = [](Expression upper) {
+    return refusal({make_categorical("c", {"1", "2"}),
+                    make_real("a", 0, 1),
+                    {"r", "", Real{0.0, std::move(upper)}, {}}});
+  };
+  EXPECT_EQ(refused(name("c")), "r: a bound depends on 'c', which is not numeric");
+  EXPECT_EQ(refused(name("a")), "accepted");
+  EXPECT_EQ(refused(call(Operation::Divide, number(0), number(0))), "r: a bound is not a number");
+  EXPECT_EQ(refused(Expression::logical(true)), "accepted") << "1";
+  EXPECT_EQ(refused(text("5")), "r: a bound may use + - * / %% min max round floor ceiling trunc");
+  EXPECT_EQ(refusal({make_real("a", 1, 2), {"r", "", Real{1.0, name("a"), true}, {}}}),
+            "r: a logarithmic domain must not depend on other parameters");
+}
+
+/// All operations on one or two numbers, by whether a bound may use them.
+TEST(ParameterSpace, KnowsTheOperationsOfBounds) {
+  using enum Operation;
+  const std::vector<Operation> always = {Add, Subtract, Multiply, Divide, Modulo,  Negate,
+                                         Min, Max,      Round,    Floor,  Ceiling, Truncate};
+  const std::vector<Operation> constant = {Power, IntegerDivide, Abs, SquareRoot, Exp, Log};
+  const std::vector<Operation> never = {Not,   And,     Or,        Xor,       Equal,  Less,
+                                        Range, Combine, AsNumeric, AsInteger, AsText, IsMissing};
+  const auto is_refused = [](const Expression& bound) {
+    const std::string refused = refusal({make_real("a", 1, 2), {"r", "", Real{-100.0, bound}, {}}});
+    return refused.starts_with("r: a bound may use + - * /");
+  };
+  for (const auto* operations : {&always, &constant, &never}) {
+    for (const Operation operation : *operations) {
+      const auto on = [operation](const Expression& x) {
+        return arity(operation).least == 2 ? call(operation, x, number(2)) : call(operation, x);
+      };
+      const auto which = static_cast<int>(operation);
+      EXPECT_EQ(is_refused(on(name("a"))), operations != &always) << which;
+      EXPECT_EQ(is_refused(on(number(4))), operations == &never) << which;
+      EXPECT_EQ(is_refused(call(Add, number(1), on(name("a")))), operations != &always) << which;
+      EXPECT_EQ(is_refused(call(Add, on(number(4)), number(1))), operations == &never) << which;
+    }
+  }
 }
 
 TEST(ParameterSpace, RefusesCircles) {

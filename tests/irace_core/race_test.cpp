@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace swarmsmith::irace {
 namespace {
@@ -72,7 +73,7 @@ TEST(Race, DropsTheWorseAtTheFirstTest) {
   EXPECT_THAT(steps[4].eliminations, ElementsAre(Elimination{2, 10, EliminationReason::Test},
                                                  Elimination{3, 15, EliminationReason::Test}));
   EXPECT_EQ(steps[4].best, 1);
-  EXPECT_TRUE(race.finished());  // one is alive, one survives
+  EXPECT_EQ(race.stop_reason(), "configurations alive (1) <= those that survive (1)");
   EXPECT_EQ(race.used(), 15);
 }
 
@@ -218,8 +219,14 @@ TEST(Race, EndsWithNoneWhenAllAreRejected) {
   Race race(first_race(), newcomers(3));
   answer(race, [](std::int64_t, std::int64_t) { return kRejects; });
   EXPECT_TRUE(race.finished());
+  EXPECT_EQ(race.stop_reason(), "all configurations were rejected");
   EXPECT_TRUE(race.none_left());
   EXPECT_THAT(race.survivors(), IsEmpty());
+  EXPECT_THAT(race.alive_ids(), IsEmpty());
+  const std::vector<RaceStep> steps = race.take_steps();
+  ASSERT_EQ(steps.size(), 1U);
+  EXPECT_EQ(steps[0].experiments_used, 3);
+  EXPECT_EQ(steps[0].eliminations.size(), 3U);
 }
 
 TEST(Race, EndsAfterTestsThatDropNone) {
@@ -233,18 +240,29 @@ TEST(Race, EndsAfterTestsThatDropNone) {
     answer(race, alternating);
   EXPECT_EQ(race.take_steps().size(), 7U);  // first test on 5, then two in vain on 6 and 7
   EXPECT_EQ(race.used(), 28);
+  EXPECT_EQ(race.stop_reason(), "tests without elimination (2) >= limit (2)");
 }
 
 TEST(Race, EndsBeforeATestThatItCannotPay) {
   RaceSettings settings = first_race();
   settings.elitist_limit = 0;
-  settings.max_experiments = 25;
-  Race race(settings, newcomers(4));
-  while (!race.finished()) {
-    answer(race,
-           [](std::int64_t id, std::int64_t pair) { return static_cast<double>((id + pair) % 4); });
-  }
-  EXPECT_EQ(race.used(), 24);
+  const auto ended = [&](std::int64_t budget_of_the_race, std::int64_t left) {
+    settings.max_experiments = budget_of_the_race;
+    settings.experiments_left = left;
+    Race race(settings, newcomers(4));
+    while (!race.finished()) {
+      answer(race, [](std::int64_t id, std::int64_t pair) {
+        return static_cast<double>((id + pair) % 4);
+      });
+    }
+    return std::to_string(race.used()) + ": " + race.stop_reason();
+  };
+  EXPECT_EQ(ended(27, 1000), "24: experiments up to the next test (28) > budget of the race (27)");
+  EXPECT_EQ(ended(28, 1000), "28: experiments up to the next test (32) > budget of the race (28)");
+  EXPECT_EQ(ended(1000, 27), "24: experiments of the next task (28) > budget that is left (27)");
+  EXPECT_EQ(ended(1000, 28), "28: experiments of the next task (32) > budget that is left (28)");
+  EXPECT_EQ(ended(1000, 19), "16: experiments of the next task (20) > budget that is left (19)")
+      << "before the first test, too";
 }
 
 TEST(Race, ReportsResultsOfThisRaceOnly) {

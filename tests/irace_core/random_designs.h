@@ -72,8 +72,8 @@ inline ParameterSpace random_space(Rng& rng) {
   if (rng.bernoulli(0.3)) parameters.push_back(make_real("rate", 0.001, 10, true));
   if (rng.bernoulli(0.3)) {  // a domain that depends on another value
     const Expression upper = call(Operation::Add, name("x"), number(rng.bernoulli(0.2) ? 0 : 3));
-    parameters.push_back({"m", "", Integer{0.0, call(Operation::Ceiling, upper)}, {}});
-    parameters.push_back({"z", "", Real{0.0, upper}, equals("kind", "a")});
+    parameters.push_back({"m", "", Integer{-2.0, call(Operation::Ceiling, upper)}, {}});
+    parameters.push_back({"z", "", Real{-1.0, upper}, equals("kind", "a")});
   }
   std::vector<Expression> forbidden;
   if (rng.bernoulli(0.4)) {

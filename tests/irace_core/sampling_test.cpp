@@ -151,10 +151,42 @@ TEST(Repair, MustStayInTheSpace) {
   const Error short_one =
       refused([](const Configuration&) -> Expected<Configuration> { return Configuration(1); });
   EXPECT_THAT(short_one.message, ::testing::HasSubstr("not have one value for each parameter"));
+  const Error longer =
+      refused([](const Configuration&) -> Expected<Configuration> { return Configuration(3); });
+  EXPECT_EQ(longer.message.substr(0, 19), "the repair made () ");
   const Error failed = refused([](const Configuration&) -> Expected<Configuration> {
     return bad_input("no such luck", "the program");
   });
   EXPECT_EQ(failed.where, "the program");
+}
+
+/// Values that the space does not have are shown as "?", inactive ones are left out.
+TEST(Repair, IsShownBesideWhatItGot) {
+  const ParameterSpace space = space_of({active_when(make_real("y", 0, 1), equals("c", "b")),
+                                         make_categorical("c", {"a", "b"}), make_real("x", 0, 1)});
+  Configuration sampled(3);
+  sampled.set(1, 0);
+  sampled.set(2, 0.25);
+  const auto complaint = [&](std::size_t parameter, double value) {
+    const auto refused = repaired(
+        space,
+        [&](Configuration changed) -> Expected<Configuration> {
+          changed.set(parameter, value);
+          return changed;
+        },
+        sampled);
+    return refused ? "" : to_string(refused.error());
+  };
+  const std::string got = " of (c = a, x = 0.25), which is not a configuration of this space: ";
+  EXPECT_EQ(complaint(2, 1.5), "repairConfiguration: the repair made (c = a, x = 1.5)" + got +
+                                   "x: 1.5 is not in its domain (0, 1)");
+  EXPECT_EQ(complaint(0, 0.5), "repairConfiguration: the repair made (y = 0.5, c = a, x = 0.25)" +
+                                   got + "y: is inactive but has a value");
+  EXPECT_EQ(complaint(1, 2), "repairConfiguration: the repair made (c = ?, x = 0.25)" + got +
+                                 "c: 2 is not in its domain (0, 1)");
+  EXPECT_EQ(complaint(1, -1), "repairConfiguration: the repair made (c = ?, x = 0.25)" + got +
+                                  "c: -1 is not in its domain (0, 1)");
+  EXPECT_EQ(complaint(2, 1), "");
 }
 
 TEST(ForbiddenList, ContainsWhatHasAllValuesOfARejectedOne) {
@@ -261,6 +293,36 @@ TEST(SamplingModels, KeepTheLastMeanOfAnInactiveParameter) {
     }
   }
   EXPECT_FALSE(models.owns(1));
+}
+
+/// After a restart the spread is that of the first update again, and a tenth of the largest
+/// probability is added to each.
+TEST(SamplingModels, WidenEachParameterInARestart) {
+  const ParameterSpace space = space_of(
+      {make_categorical("fixed", {"x"}), make_categorical("c", {"a", "b"}), make_real("r", 0, 100),
+       make_categorical("also", {"y"}), make_integer("n", 0, 100)});
+  Configuration elite(5);
+  for (const auto& [parameter, value] :
+       {std::pair{0U, 0.0}, {1U, 1.0}, {2U, 50.0}, {3U, 0.0}, {4U, 50.0}})
+    elite.set(parameter, value);
+  const std::vector<EliteLine> line{{1, 0, &elite}};
+  SamplingModels models(space);
+  models.initialise(line);
+  models.update(line, {.fraction = 1, .shrink = 0.001, .most = 1});
+  const auto spread = [&](std::size_t parameter) {
+    Rng rng(13);
+    std::set<double> values;
+    for (int i = 0; i < 200; ++i)
+      values.insert((*models.sample(1, rng))[parameter]);
+    return *values.rbegin() - *values.begin();
+  };
+  EXPECT_EQ(spread(1), 0);
+  EXPECT_LT(spread(2), 1);
+  EXPECT_LT(spread(4), 2);
+  models.restart(1, 1000);
+  EXPECT_EQ(spread(1), 1);
+  EXPECT_GT(spread(2), 5);
+  EXPECT_GT(spread(4), 5);
 }
 
 TEST(SamplingModels, SampleUniformlyWhatNoEliteOfTheLineHad) {

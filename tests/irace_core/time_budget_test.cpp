@@ -93,6 +93,31 @@ TEST(TimeBudget, LowersTheBoundOfAnEstimateThatWouldTakeTooLong) {
   EXPECT_EQ(TimeBudget(scenario, 5).bound_for_estimate(), 5);
   scenario.bound_max = 4;
   EXPECT_EQ(TimeBudget(scenario, 5).bound_for_estimate(), 0);
+  scenario.bound_max = 5;  // 50 are enough
+  EXPECT_EQ(TimeBudget(scenario, 5).bound_for_estimate(), 0);
+  scenario.bound_max = 5.01;
+  EXPECT_EQ(TimeBudget(scenario, 5).bound_for_estimate(), 5);
+  // Without bounds, a run is assumed to take 1: 1 for ten runs, rounded up to two decimals.
+  scenario = timed_scenario(10);
+  scenario.bound_digits = 2;
+  EXPECT_EQ(TimeBudget(scenario, 5).bound_for_estimate(), 0.1);
+  scenario.max_time = 200;
+  EXPECT_EQ(TimeBudget(scenario, 5).bound_for_estimate(), 0);
+}
+
+TEST(TimeBudget, TriesNoMoreThan1024Configurations) {
+  Scenario scenario = timed_scenario(1e6);
+  scenario.parallel = 20;
+  TimeBudget budget(scenario, 5);
+  budget.count(1);
+  EXPECT_EQ(budget.more_configurations(1019), 4);
+  EXPECT_EQ(budget.more_configurations(1021), 3);
+  EXPECT_EQ(budget.more_configurations(1023), 1);
+  EXPECT_EQ(budget.more_configurations(1024), 0);
+  scenario.parallel = 10'000;
+  EXPECT_EQ(TimeBudget(scenario, 5).first_configurations(), 1024);
+  scenario.parallel = 0;
+  EXPECT_EQ(TimeBudget(scenario, 5).first_configurations(), 2);
 }
 
 TEST(TimedRace, BeginsWithAnEstimateWhoseRunsAreUsedAgain) {
@@ -148,7 +173,12 @@ TEST(TimedRace, PlansFewerIterationsWhenTheTimeIsShort) {
   EXPECT_FALSE(race.failure().has_value());
   const auto warnings = only<RaceWarning>(run.events);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_THAT(warnings.front().text, HasSubstr("random search"));
+  EXPECT_EQ(warnings.front().text,
+            "with an estimated time of 2 per run, the remaining time is too short for the usual "
+            "number of iterations: there are " +
+                std::to_string(race.n_iterations() - 1) +
+                ", with few configurations each, and the result may be no better than a random "
+                "search");
   // Twice as many as survive.
   EXPECT_EQ(only<IterationStarted>(run.events).front().n_configurations, 6);
 }
@@ -166,18 +196,43 @@ TEST(TimedRace, NeedsTimes) {
   race.tell(std::vector<double>(race.wanted().size(), 1.0));
   ASSERT_TRUE(race.failure().has_value());
   EXPECT_TRUE(race.finished());
-  EXPECT_THAT(race.failure()->message, HasSubstr("configuration 1 on pair 1"));
+  EXPECT_EQ(race.failure()->message,
+            "the run of configuration 1 on pair 1 came without its time, which a budget of time "
+            "needs: the target must give the cost and the time of each run");
 }
 
 TEST(TimedRace, EndsWhenATargetDoesNotStopAtItsBound) {
   Scenario scenario = timed_scenario(3000);
   scenario.bound_max = 12;
-  auto race = IteratedRace::start(small_space(), scenario).value();
-  std::vector<Measurement> answers(race.wanted().size(), {1, 12});
-  answers[3].time = 12.5;
-  race.tell(answers);
-  ASSERT_TRUE(race.failure().has_value());
-  EXPECT_THAT(race.failure()->message, HasSubstr("12.5, more than its bound of 12"));
+  const auto failure = [&](std::size_t run, double time) {
+    auto race = IteratedRace::start(small_space(), scenario).value();
+    std::vector<Measurement> answers(race.wanted().size(), {1, 12});
+    answers[run].time = time;
+    race.tell(answers);
+    EXPECT_EQ(race.failure().has_value(), race.finished());
+    return race.failure() ? to_string(*race.failure()) : "";
+  };
+  EXPECT_EQ(failure(3, 12.5),
+            "the run of configuration 2 on pair 2 took 12.5, more than its bound of 12: a target "
+            "must stop itself at the bound");
+  EXPECT_THAT(failure(0, 12.02), HasSubstr("configuration 1 on pair 1 took 12.02, more than"));
+  EXPECT_EQ(failure(0, 12.01), "") << "what cannot be measured is no error";
+}
+
+TEST(TimedRace, SaysWhichDomainIsEmpty) {
+  std::vector<Parameter> parameters{make_integer("n", 1, 3)};
+  parameters.push_back({"m", "", Integer{4.0, name("n")}, {}});
+  const auto race = IteratedRace::start(space_of(std::move(parameters)), timed_scenario(3000));
+  ASSERT_FALSE(race.has_value());
+  EXPECT_EQ(race.error().where, "m");
+}
+
+TEST(TimedRace, SaysThatAllIsForbidden) {
+  const ParameterSpace space =
+      space_of({make_real("x", 0, 1)}, {call(Operation::LessEqual, name("x"), number(1))});
+  EXPECT_EQ(complaint_of(IteratedRace::start(space, timed_scenario(3000))),
+            "no configuration that is not forbidden was found: the constraints are too strict; "
+            "forbid less, or narrow the domains instead");
 }
 
 TEST(TimedRace, RaisesTimesThatCannotBeMeasured) {
@@ -196,7 +251,9 @@ TEST(TimedRace, LowersBoundMaxToTwiceTheMean) {
   ASSERT_FALSE(race.failure().has_value()) << to_string(*race.failure());
   const auto warnings = only<RaceWarning>(run.events);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_THAT(warnings.front().text, HasSubstr("lowered from 12 to 4"));
+  EXPECT_EQ(warnings.front().text,
+            "bound_max, the bound of runs, is lowered from 12 to 4: the runs so far and the "
+            "remaining time show that it is much too large");
   EXPECT_EQ(only<TimeEstimated>(run.events).back().bound_max, 4);
 }
 

@@ -2,10 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
+#include <string>
+#include <string_view>
 
 #include "tests/irace_core/search/played.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
@@ -127,10 +131,76 @@ TEST(Annealing, TakesItsScaleFromRandomConfigurationsAlone) {
   }
 }
 
+/// Of the random configurations two are not rejected: their costs differ, so that it walks.
+TEST(Annealing, TakesItsScaleFromTwoConfigurationsAndNotFromOne) {
+  const auto walked_with = [](std::int64_t last) {
+    const auto cost = [last](const Configuration& c, const Experiment& experiment) {
+      const bool is_rejected = experiment.configuration > last && experiment.configuration <= 21;
+      return is_rejected ? std::numeric_limits<double>::infinity() : 1 + std::fabs(c[0]);
+    };
+    SearchOptions options = annealing(1e6);
+    std::get<AnnealingOptions>(options).end_temperature = 1e6;
+    return walked_of_steps(play(*started(weights_space(1), options, 4000), cost));
+  };
+  const auto [two, steps] = walked_with(3);
+  EXPECT_GT(two, steps * 95 / 100);
+  const auto [one, as_many] = walked_with(2);
+  EXPECT_LT(one, as_many / 2);
+}
+
 TEST(Annealing, CannotBeExtendedAndSaysWhy) {
   auto search = started(weights_space(3), annealing(), 1000);
   play(*search, noisy_sphere);
-  EXPECT_THAT(search->least_extension().error().message, ::testing::HasSubstr("temperatures"));
+  const std::string why =
+      "annealing cannot be extended: its temperatures follow from the whole budget. Run the "
+      "campaign with the larger budget into a new store";
+  EXPECT_EQ(to_string(search->least_extension().error()), why);
+  EXPECT_EQ(to_string(search->extend(1000).error()), why);
+}
+
+/// The start and twenty others on a window of 10, an iteration, and 100 runs each of two at the
+/// end.
+TEST(Annealing, NeedsItsScaleAnIterationAndAFinalStage) {
+  Scenario scenario;
+  scenario.max_experiments = 21 * 10 + (10 + 2 * 1) + 2 * 100;
+  EXPECT_TRUE(start_search(weights_space(3), scenario, annealing()));
+  --scenario.max_experiments;
+  EXPECT_EQ(complaint_of(start_search(weights_space(3), scenario, annealing())),
+            "max_experiments: a budget of 421 experiments is too small: with these settings it "
+            "must be at least 422");
+}
+
+TEST(Annealing, SaysWhichOptionsDoNotGoTogether) {
+  const auto faults = [](void (*change)(AnnealingOptions&)) {
+    AnnealingOptions options;
+    change(options);
+    std::string text;
+    for (const SearchFault& fault : options.faults()) {
+      for (const std::string_view key : fault.keys)
+        text += std::string(key) + " ";
+      text += "- " + fault.message + "; ";
+    }
+    return text;
+  };
+  EXPECT_EQ(faults([](AnnealingOptions&) {}), "");
+  EXPECT_EQ(faults([](AnnealingOptions& o) { o.moved = o.window; }), "");
+  EXPECT_EQ(faults([](AnnealingOptions& o) { o.moved = o.window + 1; }),
+            "moved - `moved` must be at most `window`: a window moves on by parts of it; ");
+  EXPECT_EQ(faults([](AnnealingOptions& o) { o.end_temperature = o.start_temperature; }), "");
+  EXPECT_EQ(faults([](AnnealingOptions& o) { o.start_temperature = 0, o.end_temperature = 2; }),
+            "");
+  EXPECT_EQ(faults([](AnnealingOptions& o) { o.start_temperature = 0.5, o.end_temperature = 2; }),
+            "end_temperature start_temperature - `end_temperature` (2) must be at most "
+            "`start_temperature` (0.5): annealing cools; ");
+  EXPECT_EQ(faults([](AnnealingOptions& o) { o.cooling = Cooling::Published; }), "");
+  const std::string published =
+      " is for geometric cooling; the published one begins at 125 score units, and again whenever "
+      "it is below 0.00125; ";
+  EXPECT_EQ(faults([](AnnealingOptions& o) {
+              o.cooling = Cooling::Published, o.start_temperature = 2, o.end_temperature = 1;
+            }),
+            "start_temperature - `start_temperature`" + published +
+                "end_temperature - `end_temperature`" + published);
 }
 
 TEST(OneParameterNeighbourhood, ChangesOneAndKeepsTheSpace) {
@@ -162,7 +232,58 @@ TEST(OneParameterNeighbourhood, SaysWhenThereIsNothingElse) {
   Rng rng(4);
   const auto other = search::one_parameter_neighbourhood(space, now).perturb(now, rng);
   ASSERT_FALSE(other);
-  EXPECT_THAT(other.error().message, ::testing::HasSubstr("besides the incumbent"));
+  EXPECT_EQ(to_string(other.error()), "no configuration besides the incumbent is allowed");
+}
+
+/// `near` lies within 2 of `n`: a value of it that is outside after a change of `n` is drawn anew.
+TEST(OneParameterNeighbourhood, KeepsValuesInDomainsThatMove) {
+  const auto beside = [](double by) {
+    return Expression::call(Operation::Add, {Expression::parameter("n"), Expression::number(by)});
+  };
+  const ParameterSpace space =
+      ParameterSpace::make({{"n", "", Integer{0.0, 20.0}, {}},
+                            {"near", "", Integer{beside(-2), beside(2)}, {}},
+                            {"only", "", Categorical{{"one"}}, {}}},
+                           {}, 2)
+          .value();
+  Rng rng(4);
+  Configuration now = sample_uniform(space, rng).value();
+  const search::Neighbourhood neighbourhood = search::one_parameter_neighbourhood(space, now);
+  int kept = 0;
+  int drawn = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Configuration next = neighbourhood.perturb(now, rng).value();
+    ASSERT_TRUE(space.check(next));
+    const bool fits = std::fabs(now[1] - next[0]) <= 2;
+    if (next[0] != now[0] && fits) {
+      EXPECT_EQ(next[1], now[1]);
+    }
+    kept += next[0] != now[0] && fits ? 1 : 0;
+    drawn += next[0] != now[0] && !fits ? 1 : 0;
+    now = next;
+  }
+  EXPECT_GT(kept, 100);
+  EXPECT_GT(drawn, 100);
+}
+
+/// With "b" forbidden there is a start and no step.
+TEST(Annealing, EndsWithoutElitesWhenThereIsNoStep) {
+  const auto is_b =
+      Expression::call(Operation::Equal, {Expression::parameter("mode"), Expression::text("b")});
+  const ParameterSpace space =
+      ParameterSpace::make({{"mode", "--mode ", Categorical{{"a", "b"}}, {}}}, {is_b}, 2).value();
+  auto search = started(space, annealing(), 1000);
+  const Played played = play(*search, [](const Configuration&, const Experiment&) { return 1.0; });
+  ASSERT_TRUE(search->failure());
+  EXPECT_EQ(to_string(*search->failure()), "no configuration besides the incumbent is allowed");
+  EXPECT_TRUE(search->wanted().empty());
+  EXPECT_TRUE(played.elites.empty());
+  const auto finished = only<RaceFinished>(played.events);
+  ASSERT_EQ(finished.size(), 1U);
+  EXPECT_EQ(finished[0].reason, "no configuration besides the incumbent is allowed");
+  EXPECT_TRUE(finished[0].elites.empty());
+  EXPECT_EQ(to_string(search->least_extension().error()), finished[0].reason);
+  EXPECT_EQ(to_string(search->extend(1000).error()), finished[0].reason);
 }
 
 }  // namespace

@@ -95,6 +95,68 @@ TEST(CmaEs, NeedsAsManyEvaluationsAsTheReference) {
   EXPECT_NEAR(median_evaluations(rosenbrock), 6040, 0.2 * 6040);
 }
 
+/// Factors that are powers of two change no digit, however small they are.
+TEST(Eigenvalues, ScaleWithTheMatrix) {
+  const std::vector<double> matrix = {2, 1, 0.5, 1, 3, -1, 0.5, -1, 1};
+  std::vector<double> axes;
+  const std::vector<double> values = search::eigenvalues(matrix, 3, axes);
+  for (const double factor : {0x1p-80, 0x1p-3, 0x1p80}) {
+    std::vector<double> scaled;
+    for (const double element : matrix)
+      scaled.push_back(factor * element);
+    std::vector<double> same_axes;
+    const std::vector<double> scaled_values = search::eigenvalues(scaled, 3, same_axes);
+    EXPECT_EQ(same_axes, axes) << factor;
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(scaled_values[i], factor * values[i]);
+  }
+}
+
+/// Three generations of three points each that run away: in the second and third one the path of
+/// the step size is long, and the path of the covariance stands still. Worked out in Python from
+/// the equations of the tutorial, with another square root of the matrix.
+TEST(CmaEs, StopsThePathOfTheCovarianceWhileTheStepGrows) {
+  struct Generation {
+    std::vector<std::vector<double>> points;
+    std::vector<double> mean;
+    double step;
+    std::vector<double> covariance;
+  };
+  const std::vector<Generation> generations = {
+      {{{1, 0.5}, {0.75, 0.25}, {0.5, 1}},
+       {0.8896638499801166, 0.46805102130086695},
+       0.9848457816861589,
+       {1.0481193347582447, 0.13612721262538394, 0.13612721262538394, 0.8612081573203932}},
+      {{{5, 3}, {4, 2}, {3, 3.5}},
+       {4.558655399920466, 2.7546233282223427},
+       2.856405392213387,
+       {1.821787990260943, 0.6474124441677288, 0.6474124441677288, 1.1273621854518887}},
+      {{{6, 3}, {5, 3.5}, {4.5, 4}},
+       {5.597848985580842, 3.220672300039767},
+       4.850748420122483,
+       {1.6906476847145036, 0.6002786608653766, 0.6002786608653766, 1.0409616603886085}},
+  };
+  search::CmaEs cma({0, 0}, 1, 6);
+  std::int64_t number = 0;
+  for (const Generation& expected : generations) {
+    cma.update(expected.points);
+    EXPECT_EQ(cma.generation(), ++number);
+    EXPECT_NEAR(cma.step(), expected.step, 1e-12);
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_NEAR(cma.mean()[i], expected.mean[i], 1e-12);
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(cma.covariance()[i], expected.covariance[i], 1e-12) << number;
+  }
+}
+
+TEST(CmaEs, KeepsItsStepBelowALimit) {
+  search::CmaEs cma({0}, 1e9, 4);
+  for (int i = 0; i < 20; ++i)
+    cma.update(std::vector<std::vector<double>>{{cma.mean()[0] + 3 * cma.step()},
+                                                {cma.mean()[0] + 2 * cma.step()}});
+  EXPECT_EQ(cma.step(), 1e10);
+}
+
 /// The same numbers in place of normal ones; mean and covariance after a generation.
 TEST(CmaEs, LearnsFromAGenerationWhatTheReferenceLearns) {
   search::CmaEs cma({0.5, -0.25, 1.0, 0.75}, 0.3, 6);

@@ -29,6 +29,59 @@ TEST(GenerationPlan, GivesWhatIsLeftToTheFinalStage) {
   EXPECT_EQ(plan.final_runs, 25);
 }
 
+TEST(GenerationPlan, HasAtLeastAGenerationAndAFinalStage) {
+  // 200 for two runs of each at the end would leave 900 of the 1000 for a generation.
+  const auto small = value_of(search::plan_generations(1100, 100, 10, 0));
+  EXPECT_EQ(small.generations, 1);
+  EXPECT_EQ(small.final_runs, 1);
+  EXPECT_EQ(complaint_of(search::plan_generations(1099, 100, 10, 0)),
+            "max_experiments: a budget of 1099 experiments is too small: with these settings it "
+            "must be at least 1100");
+  EXPECT_EQ(complaint_of(search::plan_generations(1199, 100, 10, 2)),
+            "max_experiments: a budget of 1199 experiments is too small: with these settings it "
+            "must be at least 1200");
+  EXPECT_EQ(value_of(search::plan_generations(199'999, 100, 10, 0)).final_runs, 109);
+}
+
+TEST(GenerationPlan, ReservesTheFinalStageOfRandomSearch) {
+  const auto plan = value_of(search::plan_random_search(12'505, {}));
+  EXPECT_EQ(plan.finalists, 12);
+  EXPECT_EQ(plan.configurations, 1130);  // (12505 - 1200) / 10
+  EXPECT_EQ(plan.generations, 2);        // of a thousand and of 130
+  EXPECT_EQ(plan.final_runs, 100);
+  EXPECT_EQ(value_of(search::plan_random_search(11'000, {.final_runs = 91})).generations, 1)
+      << "11 finalists leave 9999 runs";
+  EXPECT_EQ(complaint_of(search::plan_random_search(109, {})),
+            "max_experiments: a budget of 109 experiments is too small: with these settings it "
+            "must be at least 110");
+  EXPECT_EQ(value_of(search::plan_random_search(110, {})).configurations, 1);
+  EXPECT_EQ(complaint_of(search::plan_random_search(329, {.finalists = 3})),
+            "max_experiments: a budget of 329 experiments is too small: with these settings it "
+            "must be at least 330");
+}
+
+TEST(RandomSearch, GivesUpWhenAHundredDrawsAreForbidden) {
+  const auto draws = [](std::int64_t forbidden) {
+    std::int64_t drawn = 0;
+    const auto is_low =
+        Expression::call(Operation::Less, {Expression::parameter("x"), Expression::number(0.5)});
+    const ParameterSpace space =
+        ParameterSpace::make({{"x", "", Real{0.0, 1.0}, {}}}, {is_low}, 2).value();
+    const Repair repair = [&](const Configuration&) -> Expected<Configuration> {
+      Configuration made(1);
+      made.set(0, ++drawn > forbidden ? 0.5 : 0.49);
+      return made;
+    };
+    Rng rng(1);
+    const auto made = search::draw_uniform(space, repair, rng);
+    return std::to_string(drawn) + (made ? "" : ": " + to_string(made.error()));
+  };
+  EXPECT_EQ(draws(0), "1");
+  EXPECT_EQ(draws(99), "100");
+  EXPECT_EQ(draws(100),
+            "100: a hundred draws in a row were forbidden: the forbidden clauses exclude too much");
+}
+
 TEST(RandomSearch, RunsTheBestAgainOnFurtherPairs) {
   auto search = started(weights_space(3), options_of(SearchKind::Random), 10'000);
   const Played played = play(*search, noisy_sphere);

@@ -5,6 +5,10 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "irace_core/iterated_race.h"
 #include "tests/irace_core/costs.h"
@@ -91,6 +95,14 @@ Options changed(void (*change)(Options&)) {
   return options;
 }
 
+/// Weights from -1 to 9, -2 to 8, ...: the middles are 4, 3, ...
+ParameterSpace uneven_space(int count) {
+  std::vector<Parameter> parameters;
+  for (int i = 0; i < count; ++i)
+    parameters.push_back({"w" + std::to_string(i), "", Real{-1.0 - i, 9.0 - i}, {}});
+  return ParameterSpace::make(std::move(parameters), {}, 2).value();
+}
+
 /// The options that are not the default ones are chosen to reach other rules: members that are
 /// few, a last part that is smaller, temperatures that begin again, a start that is random.
 std::vector<Traced> traced_searches() {
@@ -99,9 +111,8 @@ std::vector<Traced> traced_searches() {
     o.population = 9, o.runs = 3, o.parents = 0.5, o.elites = 0.25, o.step = 0.7;
     o.mutation = Mutation::Normal, o.final_runs = 4;
   });
-  const auto small_cma = changed<CmaEsOptions>([](CmaEsOptions& o) {
-    o.population = 7, o.runs = 2, o.step = 0.5, o.final_runs = 3;
-  });
+  const auto small_cma = changed<CmaEsOptions>(
+      [](CmaEsOptions& o) { o.population = 7, o.runs = 2, o.step = 0.5, o.final_runs = 3; });
   const auto wide_cma =
       changed<CmaEsOptions>([](CmaEsOptions& o) { o.population = 6, o.runs = 1, o.step = 10; });
   const auto published = changed<AnnealingOptions>([](AnnealingOptions& o) {
@@ -110,23 +121,25 @@ std::vector<Traced> traced_searches() {
   const auto frozen = changed<AnnealingOptions>([](AnnealingOptions& o) {
     o.start_temperature = 3, o.end_temperature = 0, o.start_at_random = true, o.moved = 10;
   });
-  const auto finalists = changed<RandomOptions>([](RandomOptions& o) {
-    o.runs = 3, o.finalists = 4, o.final_runs = 11;
-  });
+  const auto finalists = changed<RandomOptions>(
+      [](RandomOptions& o) { o.runs = 3, o.finalists = 4, o.final_runs = 11; });
   const auto few = changed<FRaceOptions>([](FRaceOptions& o) { o.configurations = 30; });
   return {
-      {"irace", mixed_space(), search_of(SearchKind::Irace), 2000, 900, 0.1, true, 16765328373391945833U},
+      {"irace", mixed_space(), search_of(SearchKind::Irace), 2000, 900, 0.1, true,
+       16765328373391945833U},
       {"f-race", mixed_space(), FRaceOptions{}, 2000, 0, 0, true, 4273007449327865898U},
       {"f-race of 30", mixed_space(), few, 700, 0, 0.2, false, 16203336691198566586U},
       {"random", mixed_space(), RandomOptions{}, 12'500, 2150, 0, true, 18056707219770113915U},
-      {"random, 4 finalists", space_with_forbidden(), finalists, 5000, 500, 0.3, true, 17169148142968550858U},
-      {"evolution", weights_space(12), neat, 6000, 3010, 0.05, true, 15050019863362956436U},
+      {"random, 4 finalists", space_with_forbidden(), finalists, 5000, 500, 0.3, true,
+       17169148142968550858U},
+      {"evolution", uneven_space(12), neat, 6000, 3010, 0.05, true, 13754415954659972052U},
       {"evolution, normal", weights_space(3, 2), normal, 500, 200, 0, false, 7770733067100650419U},
       {"cma-es", weights_space(5), CmaEsOptions{}, 6000, 3010, 0, false, 7241178616094801548U},
-      {"cma-es, 7 members", weights_space(4, 2), small_cma, 400, 150, 0.1, true, 479743292472773238U},
+      {"cma-es, 7 members", uneven_space(4), small_cma, 400, 150, 0.1, true, 14249266619628736531U},
       {"cma-es, wide", weights_space(2), wide_cma, 300, 100, 0, true, 12577315680540096921U},
       {"annealing", mixed_space(), AnnealingOptions{}, 4000, 0, 0, false, 51207754885657526U},
-      {"annealing, published", weights_space(3), published, 2000, 0, 0.1, true, 1280989082109102630U},
+      {"annealing, published", weights_space(3), published, 2000, 0, 0.1, true,
+       1280989082109102630U},
       {"annealing, frozen", mixed_space(), frozen, 3000, 0, 0, true, 13364618673641254097U},
   };
 }
@@ -149,9 +162,9 @@ std::uint64_t trace_of(const Traced& traced) {
     digest.add(search->ahead(2));
     digest.add(search->alive());
     digest.add(search->elites());
-    for (const std::int64_t number : {search->experiments_used(), search->budget(),
-                                      search->iteration(), search->n_iterations(),
-                                      search->n_alive()})
+    for (const std::int64_t number :
+         {search->experiments_used(), search->budget(), search->iteration(), search->n_iterations(),
+          search->n_alive()})
       digest.add(number);
   };
   const auto play_to_the_end = [&] {
@@ -329,10 +342,14 @@ TEST_P(EverySearch, GoesOnAfterAnExtensionOrSaysWhyNot) {
   }
   // What is too little for an iteration gives a race a further post-selection.
   const bool is_race = words_of(GetParam()).has_tests;
-  EXPECT_TRUE(is_race || !search->extend(*least - 1));
+  if (!is_race) {
+    EXPECT_EQ(complaint_of(search->extend(*least - 1)),
+              "is too little for a further generation and a final stage: it must be at least " +
+                  std::to_string(*least));
+  }
   const std::int64_t before = search->budget();
-  ASSERT_TRUE(search->extend(*least + 5));
-  EXPECT_EQ(search->budget(), before + *least + 5);
+  ASSERT_TRUE(search->extend(*least));
+  EXPECT_EQ(search->budget(), before + *least);
   play_on(*search, noisy_sphere, played);
   EXPECT_LE(search->experiments_used(), search->budget());
   EXPECT_EQ(search->experiments_used(), played.asked);
@@ -347,10 +364,23 @@ TEST(Search, OfOneRaceHasNoOther) {
 }
 
 TEST(Search, OfOneRaceDrawsAsManyAsItCanTest) {
-  const auto drawn = [](Scenario scenario, const FRaceOptions& options = {}) {
-    return f_race_scenario(scenario, options).nb_configurations;
+  const auto drawn = [](const Scenario& scenario, const FRaceOptions& options = {}) {
+    const Scenario race = f_race_scenario(scenario, options);
+    EXPECT_EQ(race.nb_iterations, 1);
+    EXPECT_FALSE(race.elitist);
+    EXPECT_EQ(race.elitist_limit, 0);
+    EXPECT_FALSE(race.soft_restart);
+    EXPECT_FALSE(race.postselection);
+    EXPECT_EQ(race.min_nb_survival, 1);
+    EXPECT_EQ(race.max_configurations_per_race,
+              std::max<std::int64_t>(1024, race.nb_configurations));
+    return race.nb_configurations;
   };
   Scenario scenario;
+  scenario.max_experiments = 40'000;
+  EXPECT_EQ(drawn(scenario), 2000);
+  scenario.max_experiments = 10;
+  EXPECT_EQ(drawn(scenario), 2);
   scenario.max_experiments = 4000;
   EXPECT_EQ(drawn(scenario), 200);
   scenario.first_test = 25;
@@ -365,14 +395,79 @@ TEST(Search, OfOneRaceHasNeitherTimesNorElitesThatBoundThem) {
   Scenario scenario;
   scenario.max_time = 5000;
   const SearchOptions options = options_of(SearchKind::FRace);
-  EXPECT_THAT(complaint_of(start_search(weights_space(3), scenario, options)),
-              HasSubstr("the budget of f-race is max_experiments"));
+  EXPECT_EQ(complaint_of(start_search(weights_space(3), scenario, options)),
+            "max_time: is for irace alone: the budget of f-race is max_experiments");
   scenario.max_time = 0;
   scenario.max_experiments = 4000;
   scenario.capping = true;
   scenario.bound_max = 10;
-  EXPECT_THAT(complaint_of(start_search(weights_space(3), scenario, options)),
-              HasSubstr("capping: is for irace alone"));
+  EXPECT_EQ(complaint_of(start_search(weights_space(3), scenario, options)),
+            "capping: is for irace alone: f-race has no elites whose times are bounds");
+}
+
+/// Each of 30 needs five runs up to the first test and one more.
+TEST(Search, OfOneRaceSaysHowMuchItsConfigurationsNeed) {
+  Scenario scenario;
+  FRaceOptions options;
+  options.configurations = 30;
+  scenario.max_experiments = 180;
+  EXPECT_TRUE(start_search(weights_space(3), scenario, options));
+  scenario.max_experiments = 179;
+  EXPECT_EQ(complaint_of(start_search(weights_space(3), scenario, options)),
+            "max_experiments: `configurations` is 30, and a budget of 179 experiments is too small "
+            "for so many: it must be at least 180");
+}
+
+TEST(Search, SaysWhichOptionsDoNotGoTogether) {
+  const auto faults = [](const SearchOptions& options) {
+    std::string text;
+    for (const SearchFault& fault : faults_of(options)) {
+      for (const std::string_view key : fault.keys)
+        text += std::string(key) + " ";
+      text += "- " + fault.message;
+    }
+    return text;
+  };
+  for (const SearchKind kind : not_empty(all_searches()))
+    EXPECT_EQ(faults(options_of(kind)), "") << name_of(kind);
+  FRaceOptions race;
+  race.configurations = 1;
+  EXPECT_EQ(faults(race),
+            "configurations - `configurations` must be 0 (automatic) or at least 2, not 1");
+  race.configurations = 2;
+  EXPECT_EQ(faults(race), "");
+  EvolutionOptions evolution;
+  evolution.elites = 0.3;
+  EXPECT_EQ(faults(evolution),
+            "elites parents - `elites` (0.3) must be at most `parents` (0.2): each elite is also a "
+            "parent");
+}
+
+TEST_P(EverySearch, RefusesGivenConfigurationsThatAreNotInTheSpace) {
+  Scenario scenario;
+  scenario.max_experiments = 3000;
+  std::vector<Configuration> given(2, Configuration(2));
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    given[i].set(0, static_cast<double>(i));
+    given[i].set(1, -5);
+  }
+  EXPECT_EQ(complaint_of(start_search(weights_space(2), scenario, options_of(GetParam()), given)),
+            "");
+  given[1].set(1, -5.5);
+  EXPECT_THAT(complaint_of(start_search(weights_space(2), scenario, options_of(GetParam()), given)),
+              HasSubstr("w1: -5.5 is not in its domain (-5, 5)"));
+}
+
+TEST_P(EverySearch, HasNoConfigurationThatItDidNotMake) {
+  auto search = started(weights_space(3), options_of(GetParam()), 3000);
+  std::int64_t last = 0;
+  for (const ConfigurationSampled& sampled : only<ConfigurationSampled>(search->take_events())) {
+    EXPECT_EQ(sampled.id, ++last);
+    EXPECT_EQ(search->configuration(last), sampled.configuration);
+  }
+  ASSERT_GT(last, 1);
+  EXPECT_THROW(search->configuration(0), std::out_of_range);
+  EXPECT_THROW(search->configuration(last + 1), std::out_of_range);
 }
 
 TEST(Search, OptionsOfRacesAreRefusedByTheOthers) {
@@ -380,22 +475,51 @@ TEST(Search, OptionsOfRacesAreRefusedByTheOthers) {
     if (words_of(kind).has_tests) continue;
     Scenario scenario;
     scenario.max_experiments = 5000;
-    scenario.deterministic = true;
-    EXPECT_FALSE(start_search(weights_space(3), scenario, options_of(kind)));
-    scenario.deterministic = false;
-    scenario.bound_max = 3;
-    EXPECT_FALSE(start_search(weights_space(3), scenario, options_of(kind)));
+    const auto refused = [&](const char* option, void (*change)(Scenario&)) {
+      Scenario changed = scenario;
+      change(changed);
+      EXPECT_EQ(complaint_of(start_search(weights_space(3), changed, options_of(kind))),
+                std::string(option) + ": works only with irace and f-race, not with " +
+                    std::string(name_of(kind)));
+    };
+    refused("deterministic", [](Scenario& s) { s.deterministic = true, s.n_instances = 9; });
+    refused("bound_max", [](Scenario& s) { s.bound_max = 3; });
+    refused("bound_max", [](Scenario& s) { s.bound_max = 3, s.capping = true; });
+    refused("target_evaluator", [](Scenario& s) { s.target_evaluator = true; });
+    refused("max_time", [](Scenario& s) { s.max_experiments = 0, s.max_time = 900; });
+    const Repair repair = [](const Configuration& same) -> Expected<Configuration> { return same; };
+    EXPECT_EQ(complaint_of(start_search(weights_space(3), scenario, options_of(kind), {}, repair)),
+              words_of(kind).takes_repairs
+                  ? ""
+                  : "repair_configuration: is for irace, f-race and random: the search " +
+                        std::string(name_of(kind)) +
+                        " continues from what it made itself, not from what was repaired");
   }
 }
 
 TEST(Search, OfWeightsAloneSaysWhatItCannotUse) {
   Scenario scenario;
   scenario.max_experiments = 5000;
+  const auto log = Real{1.0, 5.0, true};
+  const auto name = [](const char* of) { return Expression::parameter(of); };
+  const auto is_high = Expression::call(Operation::Greater, {name("r"), Expression::number(0)});
+  const std::vector<std::pair<Parameter, const char*>> strange = {
+      {{"w", "", Categorical{{"a", "b"}}, {}}, "is not a real number"},
+      {{"w", "", Integer{0.0, 5.0}, {}}, "is not a real number"},
+      {{"w", "", Real{0.0, 1.0}, is_high}, "has a condition"},
+      {{"w", "", log, {}}, "is logarithmic"},
+      {{"w", "", Real{0.0, name("r")}, {}}, "has a range that depends on others"}};
   for (const SearchKind kind : not_empty(all_searches())) {
     if (!words_of(kind).wants_reals) continue;
-    const Error search = why_not(start_search(mixed_space(), scenario, options_of(kind)));
-    EXPECT_EQ(search.where, "mode");
-    EXPECT_THAT(search.message, HasSubstr(std::string(name_of(kind))));
+    for (const auto& [parameter, why] : strange) {
+      const ParameterSpace space =
+          ParameterSpace::make({{"r", "", Real{1.0, 2.0}, {}}, parameter}, {}, 4).value();
+      EXPECT_EQ(complaint_of(start_search(space, scenario, options_of(kind))),
+                "w: the search " + std::string(name_of(kind)) +
+                    " needs reals without conditions, such as the weights of networks, and this "
+                    "parameter " +
+                    why);
+    }
   }
 }
 
@@ -409,7 +533,9 @@ TEST_P(EverySearch, KeepsToWhatIsNotForbiddenOrSaysThatItCannot) {
   auto search = start_search(space_with_forbidden(), scenario, options_of(GetParam()), {given});
   if (words_of(GetParam()).wants_reals) {
     ASSERT_FALSE(search);
-    EXPECT_THAT(to_string(search.error()), HasSubstr("would not keep to forbidden combinations"));
+    EXPECT_EQ(to_string(search.error()),
+              "forbidden: the search " + std::string(name_of(GetParam())) +
+                  " makes weights one by one, and would not keep to forbidden combinations");
     return;
   }
   ASSERT_TRUE(search) << to_string(search.error());
