@@ -176,11 +176,15 @@ TEST(DriverWatch, OneSpeedOfAnotherOneDegradesTheRun) {
   DrivenRobot robot;
   robot.run_with([](DrivenRobot& of) {
     of.obey();
-    if (of.clock == of.fault_at + milliseconds(100)) of.hear_rival();
+    if (of.clock == of.fault_at + milliseconds(300))
+      of.node.driver().hear(RivalMessage{{of.clock - milliseconds(250), 0}, "/teleop"});
   });
   EXPECT_EQ(robot.state().phase, Phase::Ended);
   EXPECT_EQ(robot.state().verdict, RunVerdict::Degraded);
-  EXPECT_THAT(robot.state().reasons[0], HasSubstr("driver: /teleop also commands the treads"));
+  EXPECT_THAT(robot.state().reasons,
+              ElementsAre("driver: /teleop also commands the treads, for up to 0.25 s, at 5.0 s: "
+                          "1 cycle was not stepped"));
+  EXPECT_EQ(robot.node.head().end->driver, RunVerdict::Degraded);
 }
 
 TEST(DriverWatch, ADriverThatHoldsTheTreadsEndsTheRun) {
@@ -577,6 +581,22 @@ TEST(DriverWatch, TreadsThatStandMayBeLateOrStopped) {
   EXPECT_EQ(of.trouble(1101), "ends" + what + "it stopped them");
 }
 
+TEST(DriverWatch, NoReportIsOfALaterCommand) {
+  Watched of;
+  of.begin();
+  of.command(0, 0.3, 0.3);
+  of.command(500, 0.3, 0.2);
+  of.say(499, 0.3, 0.2);
+  EXPECT_EQ(of.trouble(500),
+            "holds since 0: driver reports 0.3 and 0.2 m/s, and 0.3 and 0.2 m/s "
+            "are commanded: only the left one obeys");
+  of.say(499, 0.3, 0.3);
+  EXPECT_EQ(of.trouble(749),
+            "holds since 499: driver reports 0.3 and 0.3 m/s, and 0.3 and 0.2 m/s "
+            "are commanded: it is 0.00 s behind")
+      << "until it reports a stop";
+}
+
 TEST(DriverWatch, SpeedsDifferByMoreThanRounding) {
   const auto is_obeyed = [](double left, double right) {
     Watched of;
@@ -655,7 +675,7 @@ TEST(DriverWatch, ThreeStrangeReportsInSuccessionEndTheRun) {
       "it follows other commands";
   Watched of;
   of.begin();
-  of.goes_straight(0, 0);
+  of.command(0, 0.3, 0.3);
   for (int ms = 310; ms < 330; ms += 10)
     of.say(ms, 0.17, 0);
   EXPECT_EQ(of.trouble(320), "holds since 0: " + strange);
@@ -668,6 +688,12 @@ TEST(DriverWatch, ThreeStrangeReportsInSuccessionEndTheRun) {
   of.say(360, 0.17, 0);
   EXPECT_EQ(of.trouble(360), "ends since 0: " + strange) << "before what only holds";
   EXPECT_EQ(of.longest_off_ms(), 360);
+  of.watch.end();
+  of.start += std::chrono::seconds(1);
+  of.begin();
+  of.command(0, 0.3, 0.3);
+  of.say(310, 0.17, 0);
+  EXPECT_EQ(of.trouble(310), "holds since 0: " + strange) << "another run";
 }
 
 TEST(DriverWatch, SpellsWithoutObedienceAreAddedUpIfTheyAreThreeSecondsApartAtMost) {
@@ -759,9 +785,10 @@ TEST(DriverWatch, CommandsAreRememberedForTenSeconds) {
 
 /// For each 200 ms, "turn" is commanded for the second half; "straight" is all that the driver
 /// reports, except in these rounds.
-std::vector<std::string> troubles_of_ignored_turns(int rounds, const std::vector<int>& obeyed) {
+/// With `silent` it then reports nothing.
+std::vector<std::string> troubles_of_ignored_turns(int rounds, const std::vector<int>& obeyed,
+                                                   bool silent = false) {
   Watched of;
-  of.command(-50, 0.3, 0.3);
   of.say(-40, 0.3, 0.3);
   of.begin();
   std::vector<std::string> troubles;
@@ -778,8 +805,8 @@ std::vector<std::string> troubles_of_ignored_turns(int rounds, const std::vector
   // A turn is over if it ended more than 300 ms ago.
   const int last = 200 * (rounds - 1) + 100;
   of.command(last + 100, 0.3, -0.3);
-  of.say(last + 300, 0.3, 0.3);
-  for (const int ms : {last + 300, last + 301})
+  if (!silent) of.say(last + 300, 0.3, 0.3);
+  for (const int ms : {last + 300, silent ? last + 311 : last + 301})
     troubles.push_back(of.trouble(ms));
   return troubles;
 }
@@ -792,6 +819,10 @@ TEST(DriverWatch, ACommandIsIgnoredIfTheDriverMissesItForASecondInAll) {
   EXPECT_THAT(troubles_of_ignored_turns(20, {}),
               ElementsAre("", "holds since 0: " + why + "20 times, for 2.0 s in all"));
   EXPECT_THAT(troubles_of_ignored_turns(21, {}),
+              ElementsAre("", "ends since 0: " + why + "21 times, for 2.1 s in all"));
+  EXPECT_THAT(troubles_of_ignored_turns(20, {}, true),
+              ElementsAre("", std::string("holds since 3910: ") + kNoReport));
+  EXPECT_THAT(troubles_of_ignored_turns(21, {}, true),
               ElementsAre("", "ends since 0: " + why + "21 times, for 2.1 s in all"));
   // What it has obeyed once, it can do: only what came after this counts.
   EXPECT_THAT(troubles_of_ignored_turns(16, {5}), ElementsAre("", ""));
@@ -1065,25 +1096,25 @@ std::vector<std::string> story(const DriverWatch& watch, TimePoint start, const 
 TEST(DriverWatch, JudgesASecondRunAsTheFirst) {
   // The first run has all kinds of trouble, shortly before the second one.
   Watched of;
-  of.start -= milliseconds(9000);
+  of.start -= milliseconds(20000);
   of.listen(-100, {"driver", "recorder"});
   of.begin();
-  for (int k = 0; k < 80; ++k) {
-    of.command(100 * k, k / 3 % 2 == 0 ? 0.4 : -0.4, 0.4);
-    of.say(100 * k, (k - 5) / 3 % 2 == 0 ? 0.4 : -0.4, 0.4);
+  for (int k = 0; k < 190; ++k) {
+    of.command(100 * k, k / 5 % 2 == 0 ? 0.4 : -0.4, 0.4);
+    of.say(100 * k, (k - 8) / 5 % 2 == 0 ? 0.4 : -0.4, 0.4);
     of.trouble(100 * k);
   }
-  for (int ms = 8000; ms < 8900; ms += 100) {
+  for (int ms = 19000; ms < 19900; ms += 100) {
     of.say(ms, 0.17, 0.11);
     of.say(ms, 0.17, 0.11, "other");
     of.rival(ms);
     of.trouble(ms);
   }
-  of.listen(8890, {"driver", "late"});
-  EXPECT_EQ(of.trouble(8899).substr(0, 4), "ends");
+  of.listen(19890, {"driver", "late"});
+  EXPECT_EQ(of.trouble(19899).substr(0, 4), "ends");
   EXPECT_THAT(of.watch.doubts(), Not(IsEmpty()));
   of.watch.end();
-  const TimePoint start = of.start + milliseconds(9000);
+  const TimePoint start = of.start + milliseconds(20000);
   const DriverWatch fresh({});
   EXPECT_EQ(story(of.watch, start, "driver", true), story(fresh, start, "driver", true));
   EXPECT_EQ(story(of.watch, start, "mute", false), story(fresh, start, "mute", false));

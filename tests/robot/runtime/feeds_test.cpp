@@ -115,7 +115,10 @@ TEST(Feeds, HearNeighboursReadyOrByScan) {
                    .ranges_m = std::vector<double>(kLidarRays, 5.0)};
   for (std::size_t ray = 100; ray < 110; ++ray)
     scan.ranges_m[ray] = 0.6;
+  feeds.set_wall_offset(std::chrono::seconds(1000));
+  scan.arrival.stamp_ns = 1'000'001'000'000;
   feeds.hear(scan);
+  EXPECT_NEAR(feeds.stamp_ms(Feed::Neighbours).value_or(0), 4, 1e-6);
   ASSERT_EQ(feeds.sensed().neighbours.size(), 1U);
   EXPECT_NEAR(feeds.sensed().neighbours[0].distance_m, 0.6, 1e-12);
   EXPECT_EQ(feeds.heard(Feed::Neighbours), 3);
@@ -140,8 +143,10 @@ TEST(Feeds, TellTheDelayOfStampsByTheWallClock) {
 
 TEST(Feeds, KeepLightWithinTheReferenceModel) {
   Feeds feeds({});
-  feeds.hear(LightMessage{at_ms(0), {0, 1, 2, 3, 4, 5, 6, 1e9}});
-  EXPECT_EQ(feeds.sensed().light_lux, (EightReadings{0, 1, 2, 3, 4, 5, 6, kMostLight_lux}));
+  feeds.hear(GroundColorMessage{at_ms(0), 30, 20, 10});
+  feeds.hear(LightMessage{at_ms(0), {9, 1, 2, 3, 4, 5, 6, 1e9}});
+  EXPECT_EQ(feeds.ground_as_sent(), (RawColor{30, 20, 10})) << "another reading";
+  EXPECT_EQ(feeds.sensed().light_lux, (EightReadings{9, 1, 2, 3, 4, 5, 6, kMostLight_lux}));
   for (const double wrong : {-1.0, std::nan("")}) {
     feeds.hear(LightMessage{at_ms(0), {7, 1, 2, 3, 4, 5, 6, wrong}});
     EXPECT_EQ(feeds.trouble(Feed::Light), "a light sensor is missing: NaN or negative lux");
@@ -149,7 +154,7 @@ TEST(Feeds, KeepLightWithinTheReferenceModel) {
   feeds.hear(LightMessage{at_ms(0), {0, 1}});
   EXPECT_EQ(feeds.trouble(Feed::Light), "expected 8 values, got 2");
   EXPECT_EQ(feeds.heard(Feed::Light), 1);
-  EXPECT_EQ(feeds.sensed().light_lux[0], 0);
+  EXPECT_EQ(feeds.sensed().light_lux[0], 9);
 }
 
 }  // namespace

@@ -38,7 +38,12 @@ TEST(RobotNode, IsIdleUntilEverySensorThatTheMachineNeedsHasSpoken) {
   EXPECT_FALSE(robot.cycle().command);
   EXPECT_EQ(robot.state().phase, Phase::Ready);
   robot.ground = false;
-  robot.cycles(6);
+  robot.cycles(3);
+  robot.cycle(milliseconds(-50));
+  EXPECT_EQ(robot.state().phase, Phase::Ready) << "350 ms";
+  robot.cycle(milliseconds(-149));
+  EXPECT_EQ(robot.state().phase, Phase::Idle) << "351 ms";
+  robot.cycle();
   EXPECT_EQ(robot.state().phase, Phase::Idle);
   EXPECT_THAT(robot.state().not_ready, ElementsAre("ground: silent for 0.60 s"));
 }
@@ -73,6 +78,7 @@ TEST(RobotNode, BeginsAtTheAgreedInstantAndEndsByItself) {
   EXPECT_THAT(robot.rows, IsEmpty());
   EXPECT_EQ(robot.node.next_tick(robot.clock), start + milliseconds(100));
   robot.cycle(milliseconds(2));
+  EXPECT_EQ(robot.node.next_tick(robot.clock), start + milliseconds(200)) << "without drift";
   ASSERT_EQ(robot.rows.size(), 1U);
   EXPECT_EQ(robot.rows[0].cycle, 1);
   EXPECT_NEAR(robot.rows[0].late_ms, 2, 1e-9);
@@ -320,7 +326,10 @@ TEST(RobotNode, TakesABrokenSensorForASilentOneAndSaysWhich) {
     robot.cycle();
   }
   EXPECT_EQ(robot.state().phase, Phase::Failed);
-  EXPECT_THAT(robot.state().reasons[0], HasSubstr("proximity sensor 1 (0 degrees) is missing"));
+  const std::vector<std::string> reasons = robot.state().reasons;
+  EXPECT_THAT(reasons[0], HasSubstr("proximity sensor 1 (0 degrees) is missing"));
+  robot.node.hear(robot.order(Order::Kind::Kill), robot.now());
+  EXPECT_EQ(robot.state().reasons, reasons) << "the first problem is the cause";
 }
 
 TEST(RobotNode, EndsTheRunWhenSensorsWereSilentInMoreThanATwentiethOfIt) {
@@ -503,6 +512,7 @@ TEST(RobotNode, FailsAfterARunWhoseLogIsNotWhole) {
   EXPECT_GT(robot.speed(), 0);
   robot.cycles(6);
   EXPECT_EQ(robot.state().phase, Phase::Ended);
+  robot.node.driver().set_listeners({{"driver", robot.clock}, {"late", robot.clock}}, robot.clock);
   robot.node.lose_log();
   EXPECT_EQ(robot.state().phase, Phase::Failed);
   EXPECT_THAT(robot.state().reasons, ElementsAre("the log is incomplete: no space left on device"));
@@ -526,6 +536,13 @@ TEST(RobotNode, DoesNotBeginWithoutALog) {
   robot.node.hear(robot.order(Order::Kind::Start), robot.now());
   EXPECT_EQ(robot.state().refused,
             "the robot has already had an order for run run07; a new run needs a new name");
+  robot.clock += milliseconds(2000);
+  robot.send_all();
+  robot.node.driver().set_listeners({{"other", robot.clock}}, robot.clock);
+  robot.node.driver().hear(DrivenMessage{{robot.clock - milliseconds(1500), 0}, 0, 0, "other"});
+  EXPECT_THAT(robot.state().not_ready,
+              ElementsAre("driver: other has not reported what the treads do for 1.5 s"))
+      << "its reports count again";
 }
 
 TEST(RobotNode, HasItsTimeSinceTheStartInEachRow) {
@@ -574,11 +591,17 @@ TEST(RobotNode, InCountedLockStepHasTheWorldsTimeInEachRow) {
   BenchRobot robot({.max_mps = kMaxWheelSpeed_mps});
   robot.send_all();
   robot.node.begin_counted(robot.now());
+  EXPECT_TRUE(robot.node.head().lock_step);
+  EXPECT_EQ(robot.node.head().run, "run-seed1");
   for (int cycle = 1; cycle <= 3; ++cycle) {
     const Decision decision = robot.node.step_counted(robot.now());
     EXPECT_EQ(decision.row->cycle, cycle);
     EXPECT_NEAR(decision.row->sensed.time_s, 0.1 * cycle, 1e-12);
+    EXPECT_EQ(decision.row->sensed.ground, (Rgb{127, 127, 127}));
   }
+  robot.node.stop("by SIGTERM");
+  EXPECT_THAT(robot.state().reasons, ElementsAre("stopped by SIGTERM"))
+      << "the world knows how long a run is";
 }
 
 TEST(RobotNode, InLockStepIsWhatTheControllerIs) {
@@ -654,24 +677,21 @@ TEST(RobotNode, MakesASecondRunLikeAFirstOne) {
         robot.operator_ahead_s = 0;
         robot.node.stop("by SIGTERM");
       }};
-  const std::vector<Deed> stories{[](BenchRobot& robot) {
-                                    robot.cycles(60);
-                                    robot.ranges = false;
-                                    robot.cycles(5);
-                                    robot.ranges = true;
-                                    robot.cycles(2);
-                                    robot.obeys = false;
-                                    robot.cycles(5);
-                                    robot.obeys = true;
-                                    robot.cycles(2);
-                                    robot.alive = false;
-                                    robot.cycles(4);
-                                    robot.alive = true;
-                                    robot.cycles(240);
-                                  },
-                                  [](BenchRobot& robot) {  // the operator is never heard
-                                    robot.cycles(3);
-                                  }};
+  const Deed story = [](BenchRobot& robot) {
+    robot.cycles(60);
+    robot.ranges = false;
+    robot.cycles(4);
+    robot.ranges = true;
+    robot.cycles(2);
+    robot.obeys = false;
+    robot.cycles(5);
+    robot.obeys = true;
+    robot.cycles(2);
+    robot.alive = false;
+    robot.cycles(4);
+    robot.alive = true;
+    robot.cycles(240);
+  };
   for (const bool has_operator : {true, false}) {
     BenchRobot used(settings);
     int runs = 0;
@@ -698,7 +718,9 @@ TEST(RobotNode, MakesASecondRunLikeAFirstOne) {
       robot->run = "run07";
       robot->alive = has_operator;
       robot->start();
-      stories[has_operator ? 0 : 1](*robot);
+      EXPECT_THAT(robot->state().reasons, IsEmpty());
+      EXPECT_EQ(robot->state().verdict, RunVerdict::Valid);
+      has_operator ? story(*robot) : robot->cycles(3);
       seen.push_back(seen_of(*robot));
       seen.back().state.order.clear();  // orders have numbers
     }
@@ -950,6 +972,20 @@ TEST(RobotNode, ASensorMayBeSilentUpToItsLimits) {
   }
 }
 
+TEST(RobotNode, NamesTheSensorThatIsSilentForLongest) {
+  BenchRobot robot;
+  robot.start();
+  robot.cycles(20);
+  robot.ground = false;
+  robot.cycles(2);
+  robot.ranges = robot.neighbours = false;
+  robot.cycles(4);
+  EXPECT_EQ(robot.rows.back().event, "ground: silent for 0.60 s");
+  robot.ground = true;
+  robot.cycle();
+  EXPECT_EQ(robot.rows.back().event, "proximity: silent for 0.50 s") << "the first of two";
+}
+
 TEST(RobotNode, JudgesAHeldCycleAtOnceAndLogsItsReadings) {
   BenchRobot robot;
   robot.node.feeds().set_wall_offset(std::chrono::seconds(5));
@@ -984,7 +1020,10 @@ TEST(RobotNode, CutsOneTreadAloneAndSaysSoBeforeAnOldReading) {
   BenchRobot robot({.max_mps = 0.2}, kLightMachine, chocolate);
   robot.light = true;
   robot.start();
-  robot.cycles(2);
+  robot.cycle();
+  EXPECT_EQ(robot.state().reasons,
+            std::vector<std::string>{"speeds were cut to 0.2 m/s in 1 cycle"});
+  robot.cycle();
   robot.ranges = false;
   robot.cycles(2);
   const LogRow& row = robot.rows.back();

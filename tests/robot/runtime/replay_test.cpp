@@ -21,9 +21,8 @@ std::string network_text() {
 }
 
 /// A run of 20 s with changing readings, a silent sensor and skipped cycles.
-RunRecord record_of(const std::string& machine, TurnClock turn_clock) {
-  BenchRobot robot({.robot_index = 2, .seed = 11}, machine,
-                   find_flavour("watermelon", turn_clock).value());
+RunRecord record_of(const std::string& machine, const Flavour& flavour) {
+  BenchRobot robot({.robot_index = 2, .seed = 11}, machine, flavour);
   robot.seconds = 20;
   robot.start();
   Rng rng(9);
@@ -37,6 +36,10 @@ RunRecord record_of(const std::string& machine, TurnClock turn_clock) {
   EXPECT_EQ(robot.state().phase, Phase::Ended)
       << machine << testing::PrintToString(robot.state().reasons);
   return {robot.node.head(), robot.rows};
+}
+
+RunRecord record_of(const std::string& machine, TurnClock turn_clock) {
+  return record_of(machine, find_flavour("watermelon", turn_clock).value());
 }
 
 constexpr const char* kTree =
@@ -114,15 +117,15 @@ TEST(LogReplay, HasTheFlavourOfItsHead) {
   Flavour mine = watermelon();
   mine.name = "mine";
   mine.neighbours.attraction_gain = 3;
-  BenchRobot robot({}, "--nstates 1 --s0 2 --att0 2", mine);
-  robot.seconds = 5;
-  robot.start();
-  robot.cycles(55);
-  RunRecord record{robot.node.head(), robot.rows};
-  ASSERT_FALSE(record.head.own_flavour.empty());
-  const auto replay = value_of(replay_log(record));
-  EXPECT_FALSE(replay.difference) << replay.difference->what;
-  EXPECT_EQ(replay.stepped, 49);
+  RunRecord record;
+  for (const TurnClock clock : {TurnClock::Seconds, TurnClock::Cycles}) {
+    mine.exploration.turn_clock = clock;
+    record = record_of(kCuriousMachine, mine);
+    ASSERT_FALSE(record.head.own_flavour.empty());
+    const auto replay = value_of(replay_log(record));
+    EXPECT_FALSE(replay.difference) << replay.difference->what;
+    EXPECT_EQ(replay.stepped, record.head.end->stepped);
+  }
   record.head.own_flavour = "wings = 2\n";
   EXPECT_THAT(why_not(replay_log(record)).message, HasSubstr("begin with its format"));
 }
