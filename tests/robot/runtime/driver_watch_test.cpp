@@ -421,23 +421,6 @@ TEST(DriverWatch, WithoutADriverThatSaysWhatItDoesNoRunIsValid) {
   expect_invalid(replaced, "the driver was replaced by other");
 }
 
-TEST(DriverWatch, SaysBeforeARunWhatIsWrong) {
-  const TimePoint now{std::chrono::seconds(100)};
-  DriverWatch watch({});
-  EXPECT_THAT(watch.not_ready(now), ElementsAre(HasSubstr("no driver listens")));
-  watch.set_listeners({{"driver", now}}, now);
-  EXPECT_THAT(watch.not_ready(now), IsEmpty()) << "one that says nothing may drive";
-  watch.hear(DrivenMessage{{now, 0}, 0, 0, "driver"});
-  EXPECT_THAT(watch.not_ready(now), IsEmpty());
-  EXPECT_THAT(watch.not_ready(now + milliseconds(1500)),
-              ElementsAre("driver: driver has not reported what the treads do for 1.5 s"));
-  watch.hear(DrivenMessage{{now, 0}, 0, 0, "other"});
-  EXPECT_THAT(watch.not_ready(now), ElementsAre(HasSubstr("both say that they drive")));
-  watch.hear(RivalMessage{{now, 0}, "/teleop"});
-  EXPECT_THAT(watch.not_ready(now),
-              ElementsAre(HasSubstr("both"), HasSubstr("/teleop also commands the treads")));
-}
-
 /// Changes are remembered for three seconds: with more patience than that, none of them is late.
 TEST(DriverWatch, WithLongPatienceNoChangeIsLate) {
   DriverWatch watch({.hold = std::chrono::seconds(10), .give_up = std::chrono::seconds(10)});
@@ -513,7 +496,7 @@ TEST(DriverWatch, ASilentDriverHoldsAfter300MillisecondsAndEndsTheRunAfterASecon
   EXPECT_EQ(of.trouble(1001), std::string("ends since 0: ") + kNoReport);
   EXPECT_EQ(of.longest_off_ms(), 1001);
   of.watch.end();
-  EXPECT_EQ(of.trouble(2000), "") << "there is no run";
+  EXPECT_EQ(of.trouble(2000), "") << "the run is over";
   Watched patient({.hold = milliseconds(0), .give_up = milliseconds(0)});
   patient.begin();
   EXPECT_EQ(patient.trouble(0), "");
@@ -853,7 +836,7 @@ TEST(DriverWatch, ACommandIsObeyedIfItsSpeedsAreReportedWithin300MillisecondsOfI
   EXPECT_THAT(trouble(301), HasSubstr("which was given 12 times"));
 }
 
-/// A random pattern of two speeds, none of which is commanded more than three times in succession:
+/// A random pattern of two speeds, each commanded at most three times in succession:
 /// each report agrees with one of the last four commands. It comes again each `period` cycles,
 /// except in a part of them.
 std::vector<bool> pattern(Rng& rng, int cycles, int period, double changed) {

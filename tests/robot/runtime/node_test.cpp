@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -288,30 +290,6 @@ TEST(RobotNode, StandsStillWhileASensorIsSilentAndGoesOn) {
   EXPECT_EQ(robot.state().verdict, RunVerdict::Degraded);
   EXPECT_THAT(robot.state().reasons,
               ElementsAre("proximity was silent for up to 0.40 s: 1 cycle was not stepped"));
-}
-
-TEST(RobotNode, EndsTheRunWhenASensorIsSilentForASecond) {
-  for (const Feed feed : {Feed::Proximity, Feed::Ground, Feed::Neighbours}) {
-    BenchRobot robot;
-    robot.start();
-    robot.cycles(20);
-    (feed == Feed::Proximity ? robot.ranges
-     : feed == Feed::Ground  ? robot.ground
-                             : robot.neighbours) = false;
-    constexpr int until_held = 4;  // within 0.5 s, of whatever sensor
-    robot.cycles(until_held - 1);
-    EXPECT_GT(robot.speed(), 0) << name_of(feed);
-    robot.cycle();
-    EXPECT_EQ(robot.speed(), 0) << name_of(feed);
-    robot.cycles(10 - until_held);
-    EXPECT_EQ(robot.state().phase, Phase::Running);
-    robot.cycle();
-    EXPECT_EQ(robot.state().phase, Phase::Failed);
-    EXPECT_EQ(robot.state().verdict, RunVerdict::Invalid);
-    EXPECT_THAT(robot.state().reasons[0],
-                HasSubstr(std::string(name_of(feed)) + ": silent for 1.10 s"));
-    EXPECT_EQ(robot.speed(), 0);
-  }
 }
 
 TEST(RobotNode, TakesABrokenSensorForASilentOneAndSaysWhich) {
@@ -720,7 +698,11 @@ TEST(RobotNode, MakesASecondRunLikeAFirstOne) {
       robot->start();
       EXPECT_THAT(robot->state().reasons, IsEmpty());
       EXPECT_EQ(robot->state().verdict, RunVerdict::Valid);
-      has_operator ? story(*robot) : robot->cycles(3);
+      if (has_operator) {
+        story(*robot);
+      } else {
+        robot->cycles(3);
+      }
       seen.push_back(seen_of(*robot));
       seen.back().state.order.clear();  // orders have numbers
     }
@@ -951,6 +933,10 @@ TEST(RobotNode, ASensorMayBeSilentUpToItsLimits) {
       robot.cycles(silent_ms / 100 - 1);
       robot.cycle(milliseconds(silent_ms % 100));
       EXPECT_EQ(robot.state().phase, silent_ms > 1000 ? Phase::Failed : Phase::Running) << name;
+      if (silent_ms > 1000) {
+        EXPECT_EQ(robot.state().verdict, RunVerdict::Invalid);
+        EXPECT_EQ(robot.state().reasons[0], robot.rows.back().event);
+      }
       LogRow row = robot.rows.back();
       EXPECT_EQ(row.command.left_mps == 0, row.act == Act::Hold);
       PerFeed<std::optional<double>> ages;

@@ -576,9 +576,11 @@ TEST(RunStarter, GivesRobotsASecondToAcceptAndHalfASecondToBegin) {
     Called called;
     called.start(0);
     called.set(Phase::Armed);
-    (of_earlier_run ? called.states[1].run : called.states[0].own_robot) =
-        of_earlier_run ? "run06" : "";
-    if (!of_earlier_run) called.states[1].phase = Phase::Ready;
+    if (of_earlier_run) {
+      called.states[1].run = "run06";
+    } else {
+      called.states[1].phase = Phase::Ready;
+    }
     called.tell(500);
     called.tick(1000);
     EXPECT_EQ(called.starter.stage(), Stage::Ordered);

@@ -159,7 +159,7 @@ TEST(Scan, HasRangesWithinItsLimits) {
   scan.range_min_m = 0;
   scan.ranges_m[1] = 0;
   ASSERT_EQ(resample(scan, 0, rays), std::nullopt);
-  EXPECT_EQ(rays[1], kInfinity) << "0 is no distance";
+  EXPECT_EQ(rays[1], kInfinity) << "0 means no return";
 }
 
 /// The value nearest to a ray, among all values of several turns.
