@@ -190,6 +190,16 @@ TEST(CappedRace, FailsWithoutTimes) {
   EXPECT_THAT(race.failure()->message, HasSubstr("no time"));
 }
 
+TEST(BoundedRace, FailsWhenATargetIgnoresItsBound) {
+  RaceSettings settings{.min_survival = 1, .max_experiments = 1000, .pairs = {1, 2, 3, 4, 5, 6}};
+  for (const double bound : {0.0, 0.5, 1.0}) {
+    settings.bound_max = bound;
+    Race race(settings, {{1, {}, {}}, {2, {}, {}}, {3, {}, {}}});
+    race.tell(std::vector<Measurement>(15, {4, 1.5}));
+    EXPECT_EQ(race.failure().has_value(), bound > 0) << bound;
+  }
+}
+
 TEST(BoundedRace, PassesOnTheLargestBoundAndTakesCostsAsTheyCome) {
   RaceSettings settings{.min_survival = 1, .max_experiments = 1000, .pairs = {1, 2, 3, 4, 5, 6}};
   settings.bound_max = 4;

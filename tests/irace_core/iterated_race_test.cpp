@@ -611,6 +611,20 @@ TEST(IteratedRace, SaysWhatItNeedsForAFirstRace) {
             "budget, or ask for fewer configurations");
 }
 
+TEST(IteratedRace, NeedsTimesForCapping) {
+  Scenario scenario = small_scenario();
+  scenario.capping = true;
+  scenario.bound_max = 5;
+  for (const double time : {0.0, 0.001}) {
+    auto race = value_of(IteratedRace::start(small_space(), scenario));
+    race.tell(std::vector<Measurement>(race.wanted().size(), {1, time}));
+    EXPECT_EQ(race.failure().has_value(), time == 0);
+    if (!race.failure()) continue;
+    EXPECT_EQ(race.failure()->message,
+              "the run of configuration 1 on pair 1 reported no time, and capping needs one");
+  }
+}
+
 TEST(IteratedRace, WarnsOfOptionsThatItChanges) {
   const auto warnings = [](ParameterSpace space, const std::function<void(Scenario&)>& change) {
     Scenario scenario = small_scenario();

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/rng.h"
 #include "irace_core/internal/rounding.h"
 #include "tests/irace_core/spaces.h"
 #include "tests/support/checks.h"
@@ -55,6 +56,8 @@ TEST(ParameterSpace, RefusesDomainsThatMakeNoSense) {
             "r: the bound -0.12345 does not fit digits = 4; it needs digits = 5");
   EXPECT_EQ(refusal({make_real("r", 0, 0.1234567)}, 2),
             "r: the bound 0.1234567 does not fit digits = 2; it needs digits = 7");
+  EXPECT_EQ(refusal({make_real("r", 0, 0.000000007)}, 8),
+            "r: the bound 0.000000007 does not fit digits = 8; it needs digits = 9");
   EXPECT_EQ(refusal({make_real("r", 0, 0.12345)}, 5), "accepted");
   EXPECT_EQ(refusal({make_real("r", 0.0001, 0.0002)}), "accepted");
   EXPECT_EQ(refusal({make_categorical("c", {"a", "b", "a"})}), "c: the value 'a' occurs twice");
@@ -121,6 +124,18 @@ TEST(ParameterSpace, KnowsTheOperationsOfBounds) {
       EXPECT_EQ(is_refused(call(Add, on(number(4)), number(1))), operations == &never) << which;
     }
   }
+}
+
+/// So many decimals that a number has no more of them.
+TEST(Rounding, KeepsWhatHasNoMoreDecimals) {
+  Rng rng(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double value = rng.uniform(-1e6, 1e6);
+    EXPECT_EQ(irace::round_to_digits(value, 15), value);
+  }
+  for (const double value : {1e300, -1e300, HUGE_VAL, -HUGE_VAL, 0.0})
+    EXPECT_EQ(irace::round_to_digits(value, 15), value);
+  EXPECT_TRUE(std::isnan(irace::round_to_digits(std::nan(""), 4)));
 }
 
 TEST(ParameterSpace, RefusesCircles) {

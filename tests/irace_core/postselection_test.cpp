@@ -83,6 +83,8 @@ TEST(Postselection, TakesTheMostThatFitOtherwise) {
 TEST(Postselection, ComparesWhatIsThereWhenNoPairIsLeft) {
   EXPECT_EQ(choose_for_postselection(missing({0, 3, 0, 9, 2}), 6, 0), (Positions{0, 1, 2, 4}));
   EXPECT_EQ(choose_for_postselection(missing({0}), 6, 0), (Positions{0}));
+  EXPECT_EQ(choose_for_postselection(missing({0, 6}), 6, 0), (Positions{0, 1}));
+  EXPECT_EQ(choose_for_postselection(missing({0, 7}), 6, 0), (Positions{0}));
 }
 
 ParameterSpace small_space() {

@@ -227,6 +227,40 @@ TEST(TimedRace, SaysWhichDomainIsEmpty) {
   EXPECT_EQ(race.error().where, "m");
 }
 
+/// Two at first, then one at a time: some seeds come to an empty domain in a later batch.
+TEST(TimedRace, SaysWhichDomainIsEmptyInALaterBatch) {
+  const ParameterSpace space =
+      space_of({make_real("x", 0, 1),
+                {"y", "", Real{0.0, call(Operation::Subtract, name("x"), number(0.1))}, {}}});
+  int failed = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Scenario scenario = timed_scenario(3000);
+    scenario.seed = seed;
+    auto race = IteratedRace::start(space, scenario);
+    if (!race) continue;
+    while (!race->finished() && race->iteration() == 0)
+      race->tell(std::vector<Measurement>(race->wanted().size(), {1, 1}));
+    if (!race->failure()) continue;
+    ++failed;
+    EXPECT_EQ(race->failure()->where, "y");
+    EXPECT_TRUE(race->finished());
+  }
+  EXPECT_GT(failed, 0);
+}
+
+TEST(TimedRace, EndsItsEstimateWhenAllConfigurationsWereTried) {
+  Scenario scenario = timed_scenario(3000);
+  scenario.min_nb_survival = 2;
+  auto race =
+      IteratedRace::start(space_of({make_categorical("kind", {"a", "b", "c"})}), scenario).value();
+  race.tell(std::vector<Measurement>(race.wanted().size(), {1, 1}));
+  EXPECT_EQ(race.alive(), std::vector<std::int64_t>{3});
+  race.tell(std::vector<Measurement>(race.wanted().size(), {1, 1}));
+  const auto started = only<IterationStarted>(race.take_events());
+  ASSERT_EQ(started.size(), 1U);
+  EXPECT_EQ(started[0].elites, (std::vector<std::int64_t>{1, 2, 3}));
+}
+
 TEST(TimedRace, SaysThatAllIsForbidden) {
   const ParameterSpace space =
       space_of({make_real("x", 0, 1)}, {call(Operation::LessEqual, name("x"), number(1))});

@@ -112,9 +112,10 @@ TEST(Eigenvalues, ScaleWithTheMatrix) {
   }
 }
 
-/// Three generations of three points each that run away: in the second and third one the path of
-/// the step size is long, and the path of the covariance stands still. Worked out in Python from
-/// the equations of the tutorial, with another square root of the matrix.
+/// In the first and the third of three generations the path of the step size is long, and the path
+/// of the covariance stands still; in the first one only in relation to the length that it can have
+/// after one step. Worked out in Python from the equations of the tutorial, with another square
+/// root of the matrix.
 TEST(CmaEs, StopsThePathOfTheCovarianceWhileTheStepGrows) {
   struct Generation {
     std::vector<std::vector<double>> points;
@@ -123,18 +124,18 @@ TEST(CmaEs, StopsThePathOfTheCovarianceWhileTheStepGrows) {
     std::vector<double> covariance;
   };
   const std::vector<Generation> generations = {
-      {{{1, 0.5}, {0.75, 0.25}, {0.5, 1}},
-       {0.8896638499801166, 0.46805102130086695},
-       0.9848457816861589,
-       {1.0481193347582447, 0.13612721262538394, 0.13612721262538394, 0.8612081573203932}},
-      {{{5, 3}, {4, 2}, {3, 3.5}},
-       {4.558655399920466, 2.7546233282223427},
-       2.856405392213387,
-       {1.821787990260943, 0.6474124441677288, 0.6474124441677288, 1.1273621854518887}},
+      {{{2, 1}, {1.5, 0.5}, {1, 2}},
+       {1.7793276999602332, 0.9361020426017339},
+       1.3204791421700712,
+       {1.1093346498938628, 0.09513695172627729, 0.09513695172627729, 0.9794348294961231}},
+      {{{2.5, 1}, {2, 1.5}, {1.5, 1.25}},
+       {2.279327699960233, 1.161881921549204},
+       1.5018447590099815,
+       {0.9237305238861272, 0.09429115648156453, 0.09429115648156453, 0.782366644774087}},
       {{{6, 3}, {5, 3.5}, {4.5, 4}},
        {5.597848985580842, 3.220672300039767},
-       4.850748420122483,
-       {1.6906476847145036, 0.6002786608653766, 0.6002786608653766, 1.0409616603886085}},
+       3.035094280436073,
+       {1.145749020002621, 0.2601085253772053, 0.2601085253772053, 0.8324537680161281}},
   };
   search::CmaEs cma({0, 0}, 1, 6);
   std::int64_t number = 0;

@@ -55,6 +55,8 @@ TEST(GenerationPlan, ReservesTheFinalStageOfRandomSearch) {
             "max_experiments: a budget of 109 experiments is too small: with these settings it "
             "must be at least 110");
   EXPECT_EQ(value_of(search::plan_random_search(110, {})).configurations, 1);
+  EXPECT_EQ(value_of(search::plan_random_search(1999, {})).finalists, 1);
+  EXPECT_EQ(value_of(search::plan_random_search(2000, {})).finalists, 2);
   EXPECT_EQ(complaint_of(search::plan_random_search(329, {.finalists = 3})),
             "max_experiments: a budget of 329 experiments is too small: with these settings it "
             "must be at least 330");
@@ -164,6 +166,7 @@ TEST(RandomSearch, AnExtensionThatFailsIsTheLast) {
     ++failed;
     EXPECT_TRUE(search->finished());
     EXPECT_EQ(search->elites().size(), elites.size());
+    EXPECT_TRUE(search->wanted().empty());
     EXPECT_EQ(to_string(search->extend(60'000).error()), to_string(extended.error()));
   }
   EXPECT_GT(failed, 0);

@@ -136,7 +136,7 @@ std::vector<Traced> traced_searches() {
       {"evolution, normal", weights_space(3, 2), normal, 500, 200, 0, false, 7770733067100650419U},
       {"cma-es", weights_space(5), CmaEsOptions{}, 6000, 3010, 0, false, 7241178616094801548U},
       {"cma-es, 7 members", uneven_space(4), small_cma, 400, 150, 0.1, true, 14249266619628736531U},
-      {"cma-es, wide", weights_space(2), wide_cma, 300, 100, 0, true, 12577315680540096921U},
+      {"cma-es, wide", weights_space(12), wide_cma, 300, 100, 0, true, 1857509475774027010U},
       {"annealing", mixed_space(), AnnealingOptions{}, 4000, 0, 0, false, 51207754885657526U},
       {"annealing, published", weights_space(3), published, 2000, 0, 0.1, true,
        1280989082109102630U},
