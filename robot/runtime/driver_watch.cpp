@@ -351,7 +351,8 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoin
       return Trouble{one.heard, true, true, one.name + " does not respond"};
   }
   if (lively_.empty() || now - heard <= limits_.give_up) return std::nullopt;
-  return Trouble{heard, true, true, names_of(lively_) + " does not respond"};
+  return Trouble{heard, true, true,
+                 names_of(lively_) + (lively_.size() > 1 ? " do" : " does") + " not respond"};
 }
 
 std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_driver(TimePoint now) {

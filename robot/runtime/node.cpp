@@ -262,8 +262,9 @@ void RobotNode::arm(const Order& order, const Now& now) {
   const double ahead_s = order.at_unix_s - now.unix_s;
   // Written so that NaN is refused.
   if (!(ahead_s > 0 && ahead_s <= kLatestStart_s)) {
-    refused_ = fmt::format("the start is {:.1f} s {}; it must be 0 to {:.0f} s ahead",
-                           std::fabs(ahead_s), ahead_s > 0 ? "ahead" : "ago", kLatestStart_s);
+    refused_ =
+        fmt::format("the start is {:.1f} s {}; it must be more than 0 and at most {:.0f} s ahead",
+                    std::fabs(ahead_s), ahead_s > 0 ? "ahead" : "ago", kLatestStart_s);
     return;
   }
   SWARMSMITH_ASSERT(!is_on() && !killed_, "no run begins in another, nor after a kill");

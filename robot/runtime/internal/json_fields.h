@@ -69,6 +69,8 @@ class JsonFieldReader {
         value = *known;
       } else if constexpr (std::is_same_v<Value, RunVerdict>) {
         value = RunVerdict::Invalid;
+      } else if (found == json_.end()) {
+        error_ = std::string("the key `") + key + "` is missing";
       } else {
         error_ = std::string("there is no ") + key + " `" + name + "`";
       }

@@ -999,7 +999,7 @@ TEST(DriverWatch, WithoutReportsSignsOfLifeDecide) {
     EXPECT_EQ(of.trouble(1001), drives ? "ends since 0: driver does not respond" : "");
     listen(1500, 0, 970);  // a message overtook another
     EXPECT_EQ(of.trouble(1981), drives ? "ends since 0: driver does not respond"
-                                       : "ends since 980: driver, recorder does not respond");
+                                       : "ends since 980: driver, recorder do not respond");
     listen(1981, 981, 970);
     EXPECT_EQ(of.trouble(1981), "");
   }

@@ -859,11 +859,12 @@ TEST(RobotNode, AStartIsInTheNextMinuteAndLastsACycleAtLeast) {
     double seconds;
     const char* refused;
   };
-  for (const Case& of : {Case{60, 30, ""}, Case{0.125, 30, ""}, Case{1, 0.1, ""}, Case{1, 0.05, ""},
-                         Case{60.25, 30, "the start is 60.2 s ahead; it must be 0 to 60 s ahead"},
-                         Case{0, 30, "the start is 0.0 s ago; it must be 0 to 60 s ahead"},
-                         Case{-1.5, 30, "the start is 1.5 s ago; it must be 0 to 60 s ahead"},
-                         Case{1, 0.04, "a run of 0.04 s is shorter than a cycle of 0.1 s"}}) {
+  for (const Case& of :
+       {Case{60, 30, ""}, Case{0.125, 30, ""}, Case{1, 0.1, ""}, Case{1, 0.05, ""},
+        Case{60.25, 30, "the start is 60.2 s ahead; it must be more than 0 and at most 60 s ahead"},
+        Case{0, 30, "the start is 0.0 s ago; it must be more than 0 and at most 60 s ahead"},
+        Case{-1.5, 30, "the start is 1.5 s ago; it must be more than 0 and at most 60 s ahead"},
+        Case{1, 0.04, "a run of 0.04 s is shorter than a cycle of 0.1 s"}}) {
     BenchRobot robot;
     robot.clock -= milliseconds(200);
     robot.cycles(2);  // to a second without a fraction, so that differences are exact

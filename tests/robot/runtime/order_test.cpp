@@ -67,7 +67,7 @@ TEST(Orders, ThatCannotBeReadAreRefusedWithAReason) {
       {"[]", no_object},
       {"7", no_object},
       {"\xff\xfe", no_object},
-      {"{}", "there is no order ``"},
+      {"{}", "the key `order` is missing"},
       {R"({"order":"start"})", "an order needs an `id`"},
       {R"({"order":"stop","id":""})", "an order needs an `id`"},
       {R"({"order":"stop","id":7})", "an order needs an `id`"},
@@ -202,7 +202,7 @@ TEST(NodeStates, ReadBackFromTheirText) {
   EXPECT_THAT(state_text(state), HasSubstr(R"("flavour":"watermelon","own_robot":"[robot]\n",)"));
   EXPECT_EQ(parse_state(state_text(state)).value(), state);
   EXPECT_EQ(parse_state(state_text({})).value(), NodeState{});
-  EXPECT_EQ(why_not(parse_state("{}")).message, "there is no state ``");
+  EXPECT_EQ(why_not(parse_state("{}")).message, "the key `state` is missing");
   EXPECT_EQ(why_not(parse_state("[]")).message, "a node's state is a JSON object");
   EXPECT_EQ(why_not(parse_state(R"({"state":"dancing"})")).message, "there is no state `dancing`");
   // Of another version: a field of another type, or one too many, is as if it were not there.
