@@ -143,6 +143,11 @@ TEST(Wilcoxon, ApproximatesWithZerosAndTies) {
   const std::vector<double> down{0, 1};
   EXPECT_EQ(wilcoxon_test(up, down, 0.5).statistic, 1.5);
   EXPECT_EQ(wilcoxon_test(up, down, 0.5).p_value, 1);
+  // V is half a rank from its mean of 1.5, on either side, and the correction takes that away.
+  EXPECT_EQ(wilcoxon_test(std::vector<double>{1, 0, 5}, std::vector<double>{0, 2, 5}, 0.5).p_value,
+            1);
+  EXPECT_EQ(wilcoxon_test(std::vector<double>{0, 2, 5}, std::vector<double>{1, 0, 5}, 0.5).p_value,
+            1);
   // Differences 1 -2 -2 0: ranks 1, 2.5, 2.5, V = 1, mean 3, variance 3*4*7/24 - 6/48 = 3.375.
   const std::vector<double> first{1, 0, 0, 5};
   const std::vector<double> second{0, 2, 2, 5};

@@ -586,6 +586,47 @@ TEST(IteratedRace, GivesUpWhenAHundredRoundsGiveOnlyForbiddenConfigurations) {
   EXPECT_NE(calls % 101, 0);
 }
 
+TEST(IteratedRace, EndsWithTheRepairThatFailsInAnExtension) {
+  bool fails = false;
+  const Repair repair = [&](const Configuration& sampled) -> Expected<Configuration> {
+    if (fails) return bad_input("no such luck");
+    return sampled;
+  };
+  auto race = IteratedRace::start(small_space(), small_scenario(), {}, repair).value();
+  run_to_end(race, synthetic_cost);
+  race.tell(std::vector<double>{});
+  EXPECT_TRUE(race.take_events().empty()) << "nothing follows the end";
+  fails = true;
+  EXPECT_TRUE(race.extend(1000));
+  EXPECT_TRUE(race.finished());
+  ASSERT_TRUE(race.failure().has_value());
+  EXPECT_EQ(to_string(*race.failure()), "no such luck");
+  EXPECT_THAT(race.elites(), IsEmpty());
+}
+
+/// Nothing is dropped: the first race comes to pair 6, which its elites then know.
+TEST(IteratedRace, ForetellsNoRunThatADeterministicTargetWouldRepeat) {
+  Scenario scenario = small_scenario();
+  scenario.deterministic = true;
+  scenario.elitist = scenario.postselection = false;
+  auto race = IteratedRace::start(small_space(), scenario).value();
+  std::set<std::pair<std::int64_t, std::int64_t>> ran;
+  std::int64_t foretold = 0;
+  while (!race.finished()) {
+    std::vector<double> costs;
+    for (const Experiment& wanted : race.wanted()) {
+      EXPECT_TRUE(ran.emplace(wanted.configuration, wanted.pair).second);
+      costs.push_back(static_cast<double>((wanted.configuration + wanted.pair) % 7));
+    }
+    for (const Experiment& ahead : race.ahead(7)) {
+      EXPECT_FALSE(ran.contains({ahead.configuration, ahead.pair}));
+      foretold += race.iteration() > 1 ? 1 : 0;
+    }
+    race.tell(costs);
+  }
+  EXPECT_GT(foretold, 0);
+}
+
 TEST(IteratedRace, SaysWhatItNeedsForAFirstRace) {
   const auto complaint = [](ParameterSpace space, const std::function<void(Scenario&)>& change) {
     Scenario scenario = small_scenario();

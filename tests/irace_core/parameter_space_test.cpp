@@ -136,6 +136,7 @@ TEST(Rounding, KeepsWhatHasNoMoreDecimals) {
   for (const double value : {1e300, -1e300, HUGE_VAL, -HUGE_VAL, 0.0})
     EXPECT_EQ(irace::round_to_digits(value, 15), value);
   EXPECT_TRUE(std::isnan(irace::round_to_digits(std::nan(""), 4)));
+  EXPECT_FALSE(std::signbit(irace::round_to_digits(-0.001, 2))) << "0 has no sign";
 }
 
 TEST(ParameterSpace, RefusesCircles) {

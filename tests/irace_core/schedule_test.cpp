@@ -84,6 +84,28 @@ TEST(Schedule, AdvisesTheMostConfigurationsThatFit) {
   EXPECT_EQ(reason(Schedule(scenario, 4).next(1000, 0, 0)), "a race");
 }
 
+TEST(Schedule, AdvisesAgainstBudgetsWithoutAnyConfiguration) {
+  Scenario scenario = with_budget(3);
+  scenario.nb_configurations = 1;
+  scenario.elitist = false;
+  EXPECT_EQ(Schedule(scenario, 4).advice_for_first_race(3),
+            " (nb_configurations is 1, and 3 experiments allow 0): give a larger budget, or ask "
+            "for fewer configurations");
+}
+
+/// A third of 100 buys 33 / (5 + 2) configurations in the second of four iterations.
+TEST(Schedule, NeedsRoomForANewConfiguration) {
+  Scenario scenario = with_budget(1000);
+  scenario.min_nb_survival = 2;
+  scenario.elitist = false;
+  for (const std::int64_t elites : {3, 4}) {
+    Schedule schedule(scenario, 4);
+    (void)schedule.next(1000, 0, 0);
+    EXPECT_EQ(reason(schedule.next(100, elites, 5)),
+              elites < 4 ? "a race" : "not enough budget for a new configuration");
+  }
+}
+
 TEST(Schedule, EndsWithTheBudget) {
   Scenario scenario = with_budget(1000);
   Schedule schedule(scenario, 4);

@@ -266,6 +266,48 @@ TEST(OneParameterNeighbourhood, KeepsValuesInDomainsThatMove) {
   EXPECT_GT(drawn, 100);
 }
 
+/// The upper bound of `m` is below its lower one for small values of `n`.
+TEST(Annealing, SaysWhichDomainIsEmpty) {
+  const auto space_up_to = [](double most) {
+    return ParameterSpace::make({{"n", "", Integer{1.0, most}, {}},
+                                 {"m", "", Integer{4.0, Expression::parameter("n")}, {}}},
+                                {}, 2)
+        .value();
+  };
+  Scenario scenario;
+  scenario.max_experiments = 1000;
+  EXPECT_EQ(why_not(start_search(space_up_to(3), scenario, annealing())).where, "m");
+  const ParameterSpace space = space_up_to(9);
+  Configuration valid(2);
+  valid.set(0, 9);
+  valid.set(1, 4);
+  EXPECT_EQ(why_not(start_search(space, scenario, annealing(), {valid})).where, "m");
+  const auto neighbourhood = search::one_parameter_neighbourhood(space, valid);
+  Rng rng(4);
+  std::set<std::string> complaints;
+  for (int i = 0; i < 100; ++i) {
+    const auto next = neighbourhood.perturb(valid, rng);
+    complaints.insert(next ? "" : next.error().where);
+  }
+  EXPECT_EQ(complaints, (std::set<std::string>{"", "m"}));
+}
+
+TEST(Annealing, StartsWhereItsNeighbourhoodStarts) {
+  const ParameterSpace space = weights_space(2);
+  Configuration start(2);
+  start.set(0, 1.25);
+  start.set(1, -3.5);
+  Scenario scenario;
+  scenario.max_experiments = 1000;
+  for (const bool at_random : {false, true}) {
+    SearchOptions options = annealing();
+    std::get<AnnealingOptions>(options).start_at_random = at_random;
+    const auto search = value_of(start_search(space, scenario, options, {}, {},
+                                              search::one_parameter_neighbourhood(space, start)));
+    EXPECT_EQ(search->configuration(at_random ? 2 : 1), start);
+  }
+}
+
 /// With "b" forbidden there is a start and no step.
 TEST(Annealing, EndsWithoutElitesWhenThereIsNoStep) {
   const auto is_b =

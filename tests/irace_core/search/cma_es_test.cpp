@@ -34,6 +34,16 @@ TEST(Eigenvalues, TakeASymmetricMatrixApart) {
   }
 }
 
+/// The third axis is apart from the others, and its value is that of the diagonal.
+TEST(Eigenvalues, TakeAnAxisThatIsApartAsItIs) {
+  std::vector<double> axes;
+  std::vector<double> values = search::eigenvalues({2, 1, 0, 1, 2, 0, 0, 0, 2}, 3, axes);
+  EXPECT_EQ(values[2], 2);
+  std::ranges::sort(values);
+  EXPECT_NEAR(values[0], 1, 1e-15);
+  EXPECT_NEAR(values[2], 3, 1e-15);
+}
+
 using Function = double (*)(const std::vector<double>&);
 
 /// Evaluations until a function of ten variables is below 1e-9, from 1 in each with a step of 0.5

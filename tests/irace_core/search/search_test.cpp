@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "irace_core/ablation.h"
 #include "irace_core/iterated_race.h"
 #include "tests/irace_core/costs.h"
 #include "tests/irace_core/event_digest.h"
@@ -123,6 +124,8 @@ std::vector<Traced> traced_searches() {
   });
   const auto finalists = changed<RandomOptions>(
       [](RandomOptions& o) { o.runs = 3, o.finalists = 4, o.final_runs = 11; });
+  const auto many = changed<RandomOptions>(
+      [](RandomOptions& o) { o.runs = 1, o.finalists = 1200, o.final_runs = 1; });
   const auto few = changed<FRaceOptions>([](FRaceOptions& o) { o.configurations = 30; });
   return {
       {"irace", mixed_space(), search_of(SearchKind::Irace), 2000, 900, 0.1, true,
@@ -132,6 +135,8 @@ std::vector<Traced> traced_searches() {
       {"random", mixed_space(), RandomOptions{}, 12'500, 2150, 0, true, 18056707219770113915U},
       {"random, 4 finalists", space_with_forbidden(), finalists, 5000, 500, 0.3, true,
        17169148142968550858U},
+      {"random, 1200 finalists", weights_space(2), many, 2500, 2000, 0, false,
+       2028789710540222448U},
       {"evolution", uneven_space(12), neat, 6000, 3010, 0.05, true, 13754415954659972052U},
       {"evolution, normal", weights_space(3, 2), normal, 500, 200, 0, false, 7770733067100650419U},
       {"cma-es", weights_space(5), CmaEsOptions{}, 6000, 3010, 0, false, 7241178616094801548U},
@@ -468,6 +473,17 @@ TEST_P(EverySearch, HasNoConfigurationThatItDidNotMake) {
   ASSERT_GT(last, 1);
   EXPECT_THROW(search->configuration(0), std::out_of_range);
   EXPECT_THROW(search->configuration(last + 1), std::out_of_range);
+}
+
+/// Whatever the options of searches say: here the ablation lacks its two configurations.
+TEST(Search, IsAnAblationIfTheScenarioSaysSo) {
+  Scenario scenario;
+  scenario.max_experiments = 3000;
+  scenario.ablation = AblationType::Full;
+  const std::string refused = complaint_of(start_ablation(weights_space(2), scenario, {}));
+  EXPECT_FALSE(refused.empty());
+  for (const SearchKind kind : not_empty(all_searches()))
+    EXPECT_EQ(complaint_of(start_search(weights_space(2), scenario, options_of(kind))), refused);
 }
 
 TEST(Search, OptionsOfRacesAreRefusedByTheOthers) {
