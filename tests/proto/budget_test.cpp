@@ -2,11 +2,13 @@
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -175,20 +177,24 @@ TEST_F(Budgets, AMessageOfNothingButEmptyPartsIsCutOff) {
   EXPECT_TRUE(eventually([&] { return refused("too much at once") > 0; })) << said;
 }
 
-TEST_F(Budgets, OfAHostThoseWithMostAreCutOff) {
-  listen({.most_waiting_of_host = 4 * kMiB});
-  ClientSocket honest(server->endpoint());
-  const PeerId name = meet(honest);
-  std::vector<std::unique_ptr<RawPeer>> peers;
-  const std::string part = part_of(kMiB - 100);
-  for (int i = 0; i < 12; ++i) {
-    peers.push_back(std::make_unique<RawPeer>(server->endpoint()));
-    peers.back()->say(part);
+TEST_F(Budgets, OfAHostOrOfAllThoseWithMostAreCutOff) {
+  for (const SocketOptions& options : {SocketOptions{.most_waiting_of_host = 4 * kMiB},
+                                       SocketOptions{.most_waiting_of_all = 4 * kMiB}}) {
+    listen(options);
+    ClientSocket honest(server->endpoint());
+    const PeerId name = meet(honest);
+    std::vector<std::unique_ptr<RawPeer>> peers;
+    const std::string part = part_of(kMiB - 100);
+    for (int i = 0; i < 12; ++i) {
+      peers.push_back(std::make_unique<RawPeer>(server->endpoint()));
+      peers.back()->say(part);
+    }
+    EXPECT_TRUE(eventually([&] { return refused("too much at once") >= 8; }));
+    EXPECT_LT(refused("too much at once"), 12U);
+    EXPECT_EQ(server->refusals().last_from.at("too much at once"), "127.0.0.1");
+    EXPECT_EQ(server->send(name, "still there"), SendStatus::Sent);
+    EXPECT_FALSE(honest.lost());
   }
-  EXPECT_TRUE(eventually([&] { return refused("too much at once") >= 8; }));
-  EXPECT_LT(refused("too much at once"), 12U);
-  EXPECT_EQ(server->send(name, "still there"), SendStatus::Sent);
-  EXPECT_FALSE(honest.lost());
 }
 
 TEST_F(Budgets, WhatIsTakenIsHeldNoMore) {
@@ -220,6 +226,77 @@ TEST_F(Budgets, WhoDoesNotReadIsCutOff) {
   EXPECT_EQ(status, SendStatus::Full);
   EXPECT_LT(sent, 20 * kMiB);
   EXPECT_EQ(refused("reads too slowly"), 1U);
+}
+
+/// A peer that does not read takes a few kilobytes into its system, so that all but these are on
+/// their way. The limits below leave room for that.
+TEST_F(Budgets, ForAPeerHaveRoomForOneLongFrameMore) {
+  constexpr std::size_t kPart = 400'000;
+  const std::string frame(kPart, 'x');
+  for (const std::size_t long_frame : {std::size_t{0}, 2 * kMiB}) {
+    listen({.most_unsent = kMiB});
+    const RawPeer silent(server->endpoint());
+    const PeerId peer = meet(silent);
+    if (long_frame > 0) {
+      EXPECT_EQ(server->send(peer, std::string(long_frame, 'x')), SendStatus::Sent);
+    }
+    // Two of 400 kB fit into a megabyte, a third does not.
+    EXPECT_EQ(server->send(peer, frame), SendStatus::Sent);
+    EXPECT_EQ(server->send(peer, frame), SendStatus::Sent);
+    EXPECT_EQ(server->send(peer, frame), SendStatus::Full);
+    EXPECT_EQ(refused("reads too slowly"), 1U);
+    EXPECT_EQ(server->refusals().last_from.at("reads too slowly"), "127.0.0.1");
+  }
+}
+
+TEST_F(Budgets, FramesAreLongAboveOneMegabyte) {
+  listen();
+  const RawPeer silent(server->endpoint());
+  const PeerId peer = meet(silent);
+  const std::string frame(kMiB, 'x');
+  EXPECT_EQ(server->send(peer, frame), SendStatus::Sent);
+  EXPECT_EQ(server->send(peer, frame), SendStatus::Sent) << "it has not to wait for the first";
+  EXPECT_EQ(server->send(peer, frame + "x"), SendStatus::Sent);
+  EXPECT_EQ(server->send(peer, frame + "x"), SendStatus::Later);
+  // Once it has arrived, the next one may be sent.
+  EXPECT_TRUE(eventually([&] {
+    silent.read();
+    return server->send(peer, frame + "x") == SendStatus::Sent;
+  }));
+  EXPECT_EQ(server->refusals().total(), 0U);
+}
+
+TEST_F(Budgets, ThatAllShareAreNotForThoseWhoRead) {
+  for (const SocketOptions& options :
+       {SocketOptions{.most_unsent_to_host = kMiB}, SocketOptions{.most_unsent_to_all = kMiB}}) {
+    listen(options);
+    const RawPeer first(server->endpoint());
+    const RawPeer second(server->endpoint());
+    const RawPeer third(server->endpoint());
+    const RawPeer fourth(server->endpoint());
+    const PeerId to_first = meet(first);
+    const PeerId to_second = meet(second);
+    const PeerId to_third = meet(third);
+    const PeerId to_fourth = meet(fourth);
+    EXPECT_EQ(server->send(to_first, std::string(600'000, 'x')), SendStatus::Sent);
+    EXPECT_EQ(server->send(to_second, std::string(400'000, 'x')), SendStatus::Sent);
+    // Together 1'120'000 bytes.
+    EXPECT_EQ(server->send(to_third, std::string(120'000, 'x')), SendStatus::Full);
+    EXPECT_EQ(server->send(to_fourth, std::string(2 * kMiB, 'x')), SendStatus::Later);
+    // Two of 60 kB: as little as this may be on its way to each, not as much as both.
+    EXPECT_EQ(server->send(to_fourth, std::string(60'000, 'x')), SendStatus::Sent);
+    EXPECT_EQ(server->send(to_fourth, std::string(60'000, 'x')), SendStatus::Full);
+    EXPECT_EQ(refused("reads too slowly"), 2U);
+    // The others are not to blame; what has arrived leaves room again.
+    const RawPeer fifth(server->endpoint());
+    const PeerId to_fifth = meet(fifth);
+    EXPECT_TRUE(eventually([&] {
+      first.read();
+      second.read();
+      return server->send(to_fifth, std::string(2 * kMiB, 'x')) == SendStatus::Sent;
+    }));
+    EXPECT_EQ(refused("reads too slowly"), 2U);
+  }
 }
 
 TEST_F(Budgets, LongFramesWaitForOneAnotherAndShortOnesDoNot) {
@@ -300,11 +377,97 @@ TEST(Gate, ForgetsTheCountOfAConnectionThatItNeverSawOpen) {
   EXPECT_EQ(gate.meter_of(in_use), used);
 }
 
+/// Both ends of a connection over loopback, whose bytes the system counts.
+class TcpConnections : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    sockaddr_in address = {};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    const int listener = socket(AF_INET, SOCK_STREAM, 0);
+    ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), size), 0);
+    ASSERT_EQ(listen(listener, 1), 0);
+    ASSERT_EQ(getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size), 0);
+    here = socket(AF_INET, SOCK_STREAM, 0);
+    ASSERT_EQ(connect(here, reinterpret_cast<sockaddr*>(&address), size), 0);
+    there = accept(listener, nullptr, nullptr);
+    close(listener);
+    ASSERT_GE(there, 0);
+  }
+  void TearDown() override {
+    close(here);
+    close(there);
+  }
+  bool is_open() const {
+    char byte = 0;
+    return recv(here, &byte, 1, MSG_DONTWAIT) < 0 && errno == EAGAIN;
+  }
+
+  int here = -1;
+  int there = -1;
+};
+
+TEST_F(TcpConnections, AreKnownByTheirInode) {
+  struct stat status = {};
+  ASSERT_EQ(fstat(there, &status), 0);
+  const Connection connection = connection_at(there);
+  EXPECT_EQ(connection.descriptor, there);
+  EXPECT_EQ(connection.inode, status.st_ino);
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(pipe(ends), 0);
+  for (const int descriptor : {-1, ends[0], 1'000'000}) {
+    EXPECT_EQ(connection_at(descriptor).descriptor, -1) << descriptor;
+    EXPECT_EQ(connection_at(descriptor).inode, 0U) << descriptor;
+  }
+  close(ends[0]);
+  close(ends[1]);
+  // The descriptor belongs to another connection by now.
+  const Connection other{there, status.st_ino + 1};
+  EXPECT_FALSE(tcp_bytes_of(other));
+  cut(other);
+  EXPECT_TRUE(is_open());
+  cut(connection);
+  EXPECT_FALSE(is_open());
+  cut({});
+}
+
+TEST_F(TcpConnections, CountTheirBytes) {
+  const std::string bytes(1234, 'x');
+  ASSERT_EQ(send(here, bytes.data(), bytes.size(), 0), 1234);
+  ASSERT_EQ(send(there, bytes.data(), 100, 0), 100);
+  const auto counts = [](int descriptor) {
+    return value_of(tcp_bytes_of(connection_at(descriptor)));
+  };
+  EXPECT_TRUE(eventually([&] { return counts(there).received == 1234; }));
+  EXPECT_TRUE(eventually([&] { return counts(here).received == 100; }));
+  // The system counts the begin of the connection as one byte.
+  EXPECT_TRUE(eventually([&] { return counts(here).acknowledged == 1235; }));
+  EXPECT_FALSE(tcp_bytes_of({}));
+  // Sockets that are no TCP have no such counts.
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+  EXPECT_FALSE(tcp_bytes_of(connection_at(ends[0])));
+  close(ends[0]);
+  close(ends[1]);
+}
+
 TEST(Network, OfAnAddress) {
-  EXPECT_EQ(network_of("127.0.0.1"), network_of("::1"));
+  const std::string loopback = network_of("127.0.0.1");
+  for (const char* address : {"::1", "127.8.9.10", "::ffff:127.0.0.1"})
+    EXPECT_EQ(network_of(address), loopback) << address;
+  EXPECT_EQ(network_of("128.0.0.1"), "128.0.0.1");
+  EXPECT_EQ(network_of("126.0.0.1"), "126.0.0.1");
   EXPECT_EQ(network_of("::ffff:10.0.0.5"), "10.0.0.5");
+  EXPECT_EQ(network_of("::2"), "::/64");
+  EXPECT_EQ(network_of("2001:db8::1"), "2001:db8::/64");
+  EXPECT_EQ(network_of("2001:db8:0:1:2:3:4:5"), "2001:db8:0:1::/64");
   EXPECT_EQ(network_of("2001:db8::1"), network_of("2001:db8::ff:2"));
   EXPECT_EQ(network_of("fe80::1%eth0"), "fe80::/64");
+  EXPECT_EQ(network_of("login1"), "login1");
+  EXPECT_EQ(plain_number("10.0.0.5"), "10.0.0.5");
+  EXPECT_EQ(plain_number("::ffff:10.0.0.5"), "10.0.0.5");
+  EXPECT_EQ(plain_number("::ffff:a00:5"), "::ffff:a00:5") << "not in this form";
 }
 
 }  // namespace

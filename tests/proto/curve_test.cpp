@@ -25,6 +25,12 @@ TEST(Keys, HaveForty85DigitsAndMatch) {
 }
 
 TEST(Keys, AreToldFromOtherTexts) {
+  // Of the digits, each is in one of these; "/" and "`", beside letters, are not or not only.
+  EXPECT_TRUE(is_key("0123456789abcdefghijABCDEFGHIJ.-:+=^!/*?"));
+  EXPECT_TRUE(is_key("00000zzzzzZZZZZ99999aaaaaAAAAA0%$#@0&<>("));
+  EXPECT_TRUE(is_key(std::string(40, '.')));
+  for (const char beside : {'`', '|', '~', ' ', ';', ',', '_', '\\'})
+    EXPECT_FALSE(is_key(std::string(39, '1') + beside)) << beside;
   EXPECT_FALSE(is_key(""));
   EXPECT_FALSE(is_key(std::string(39, '1')));
   EXPECT_FALSE(is_key(std::string(41, '1')));
@@ -128,6 +134,10 @@ TEST_F(LockedDoor, KeepsAnUnlistedKeyOut) {
   expect_kept_out(*stranger, "unlisted key");
   EXPECT_TRUE(stranger->refused());
   EXPECT_EQ(server->refusals().last_from.at("unlisted key"), "127.0.0.1");
+  // Until it connects again, when nothing is known yet.
+  stranger->redirect("somewhere", {});
+  stranger->connect();
+  EXPECT_FALSE(stranger->refused());
 }
 
 TEST_F(LockedDoor, KeepsAnExpiredKeyOut) {
@@ -149,6 +159,7 @@ TEST_F(LockedDoor, KeepsOutWhoTakesItForAnother) {
   const auto stranger = connect(
       ClientKeys{.secret_key = worker.secret_key, .server_key = make_key_pair().public_key});
   expect_kept_out(*stranger, "wrong server key");
+  EXPECT_FALSE(stranger->stood());
 }
 
 TEST_F(LockedDoor, ClosesAnIdleOrRubbishConnectionSoon) {
@@ -200,9 +211,13 @@ TEST_F(LockedDoor, CutsOffWhoseTimeIsOver) {
   const auto desk = connect(reader);
   desk->send("one");
   ASSERT_EQ(next_at_server(), "one");
-  EXPECT_EQ(
-      server->admit({client(worker, Role::Worker), client(reader, Role::Reader, true)}).size(), 1U);
+  EXPECT_EQ(server->admit({client(worker, Role::Worker), client(reader, Role::Reader, true)}),
+            std::vector<PeerId>{last.peer});
   EXPECT_TRUE(eventually([&] { return desk->lost(); }));
+  EXPECT_EQ(refused("revoked key"), 1U);
+  // It is cut once.
+  EXPECT_TRUE(server->admit({client(worker, Role::Worker)}).empty());
+  EXPECT_EQ(server->refusals().total(), 1U);
 }
 
 TEST_F(LockedDoor, KeepsARevokedKeyFromItsFirstWord) {

@@ -36,6 +36,11 @@ TEST(PackedKey, RefusesWhatCannotBeAKey) {
   EXPECT_FALSE(pack(key_of(1, 8, 1)));
   EXPECT_FALSE(pack(key_of(1, 0, -1)));
   EXPECT_FALSE(pack(key_of(1, 0, kMaxPair + 1)));
+  pb::Key key = key_of(1, 0, 1);
+  key.set_campaign(kMaxCampaigns - 1);
+  EXPECT_EQ(campaign_of(pack(key).value()), kMaxCampaigns - 1);
+  key.set_campaign(kMaxCampaigns);
+  EXPECT_FALSE(pack(key));
 }
 
 }  // namespace

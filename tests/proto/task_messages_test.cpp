@@ -13,6 +13,7 @@ namespace {
 TEST(TaskMessages, GiveBackTheTask) {
   const LeasedTask task{{.mission = 1,
                          .method = 2,
+                         .profile = 12,
                          .instance = -3,
                          .seed = 4,
                          .machine = "--nstates 1\xff",
@@ -27,6 +28,7 @@ TEST(TaskMessages, GiveBackTheTask) {
   const LeasedTask read = task_of(message);
   EXPECT_EQ(read.mission, 1U);
   EXPECT_EQ(read.method, 2U);
+  EXPECT_EQ(read.profile, 12U);
   EXPECT_EQ(read.instance, -3);
   EXPECT_EQ(read.seed, 4);
   EXPECT_EQ(read.machine, task.machine);
@@ -36,6 +38,14 @@ TEST(TaskMessages, GiveBackTheTask) {
   EXPECT_EQ(read.attempt, 10);
   EXPECT_EQ(read.signature, 11U);
   EXPECT_TRUE(read.alone);
+  // One evaluation of the test with a whole key.
+  EXPECT_EQ(message.key().campaign(), 9U);
+  EXPECT_EQ(message.key().candidate(), 7);
+  EXPECT_EQ(message.key().purpose(), kTestPurpose);
+  EXPECT_EQ(message.key().pair(), 8);
+  write(LeasedTask{{}, pack(1, 0, 0), 0, 0, false}, message);
+  EXPECT_FALSE(task_of(message).alone);
+  EXPECT_TRUE(task_of(message).alive.empty()) << "nothing of the task before";
 }
 
 TEST(TaskMessages, GiveBackTheResult) {
@@ -59,13 +69,27 @@ TEST(TaskMessages, GiveBackTheResult) {
 }
 
 TEST(TaskMessages, CutTextsAndKnowOneZero) {
+  const std::string text(2 * kMaxTextBytes, 'x');
+  const std::string part(kMaxTextBytes, 'x');
   pb::Result message;
   write({.key = pack(1, 0, 1),
          .measured = {.score = -0.0},
-         .failure = std::string(2 * kMaxTextBytes, 'x')},
+         .failure = text,
+         .details = {text, text, text}},
         message);
-  EXPECT_EQ(result_of(message).failure.size(), kMaxTextBytes);
-  EXPECT_FALSE(std::signbit(result_of(message).measured.score));
+  const Result read = result_of(message);
+  EXPECT_EQ(read.failure, part);
+  EXPECT_EQ(read.details, (FailureDetails{part, part, part}));
+  EXPECT_FALSE(std::signbit(read.measured.score));
+}
+
+TEST(TaskMessages, HaveDetailsOfFailuresOnly) {
+  pb::Result message;
+  write({.key = pack(1, 0, 1), .measured = {.score = 2.5}, .details = {"called", "out", "err"}},
+        message);
+  EXPECT_EQ(result_of(message).details, FailureDetails{});
+  EXPECT_FALSE(result_of(message).rejected);
+  EXPECT_EQ(result_of(message).measured.score, 2.5);
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include "proto/key.h"
 #include "proto/wire.pb.h"
 
+#include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/checks.h"
@@ -40,6 +42,23 @@ std::string fault_of(const std::string& frame) {
   return message ? "" : message.error().where;
 }
 
+std::string fault_of(const pb::ToCoordinator& message) {
+  return fault_of(encode(message));
+}
+std::string fault_of(const pb::ToWorker& message) {
+  Arena arena;
+  const auto decoded = decode_to_worker(encode(message), arena);
+  return decoded ? "" : decoded.error().where;
+}
+
+/// The least that a coordinator takes.
+pb::ToCoordinator a_hello() {
+  pb::ToCoordinator message;
+  message.mutable_hello()->set_worker_id(std::string(kWorkerIdBytes, 'a'));
+  message.mutable_hello()->set_slots(1);
+  return message;
+}
+
 /// A body of `field` that has `count` parts of nothing, 2 bytes each.
 std::string empty_parts(int field, int part, std::size_t count) {
   std::string body;
@@ -55,15 +74,118 @@ std::string empty_parts(int field, int part, std::size_t count) {
   return text + body;
 }
 
-/// Else a megabyte makes objects of a hundred.
-TEST(Wire, NamesThatAreKeptAreShort) {
-  pb::ToCoordinator message;
-  message.mutable_hello()->set_worker_id(std::string(kWorkerIdBytes, 'a'));
-  message.mutable_hello()->set_slots(1);
-  message.mutable_hello()->set_host(std::string(kMaxNameBytes, 'h'));
-  EXPECT_EQ(fault_of(encode(message)), "");
-  message.mutable_hello()->set_host(std::string(kMaxNameBytes + 1, 'h'));
-  EXPECT_EQ(fault_of(encode(message)), "limits");
+/// Each text with a limit, with the most bytes that it may have. Names are kept for each worker, so
+/// they are short.
+TEST(Wire, TextsHaveLimits) {
+  const auto expect_limit = [](const char* name, auto message, std::size_t most, const auto& set) {
+    set(message, std::string(most, 't'));
+    EXPECT_EQ(fault_of(message), "") << name;
+    set(message, std::string(most + 1, 't'));
+    EXPECT_EQ(fault_of(message), "limits") << name;
+  };
+  using Text = const std::string&;
+  const std::pair<const char*, void (*)(pb::Hello&, Text)> names[] = {
+      {"build", [](pb::Hello& hello, Text text) { hello.set_build(text); }},
+      {"self_test", [](pb::Hello& hello, Text text) { hello.set_self_test(text); }},
+      {"host", [](pb::Hello& hello, Text text) { hello.set_host(text); }},
+      {"job", [](pb::Hello& hello, Text text) { hello.set_job(text); }},
+      {"cpu", [](pb::Hello& hello, Text text) { hello.set_cpu(text); }},
+      {"secret", [](pb::Hello& hello, Text text) { hello.set_secret(text); }}};
+  for (const auto& row : names) {
+    expect_limit(row.first, a_hello(), kMaxNameBytes,
+                 [&](auto& m, Text text) { row.second(*m.mutable_hello(), text); });
+  }
+  const std::pair<const char*, void (*)(pb::Result&, Text)> of_results[] = {
+      {"failure", [](pb::Result& result, Text text) { result.set_failure(text); }},
+      {"command", [](pb::Result& result, Text text) { result.set_command(text); }},
+      {"output", [](pb::Result& result, Text text) { result.set_output(text); }},
+      {"errors", [](pb::Result& result, Text text) { result.set_errors(text); }}};
+  for (const auto& row : of_results) {
+    expect_limit(row.first, one_result(1), kMaxTextBytes, [&](auto& m, Text text) {
+      row.second(*m.mutable_results()->mutable_results(0), text);
+    });
+  }
+  const std::pair<const char*, void (*)(pb::Command&, Text)> of_commands[] = {
+      {"campaign", [](pb::Command& command, Text text) { command.set_campaign(text); }},
+      {"who", [](pb::Command& command, Text text) { command.set_who(text); }},
+      {"whom", [](pb::Command& command, Text text) { command.set_whom(text); }}};
+  for (const auto& row : of_commands) {
+    expect_limit(row.first, pb::ToCoordinator(), kMaxTextBytes,
+                 [&](auto& m, Text text) { row.second(*m.mutable_command(), text); });
+  }
+  expect_limit("machine", some_tasks(1), kMaxMachineBytes,
+               [](auto& m, Text text) { m.mutable_tasks()->mutable_tasks(0)->set_machine(text); });
+  expect_limit("reject", pb::ToWorker(), kMaxTextBytes,
+               [](auto& m, Text text) { m.mutable_reject()->set_sentence(text); });
+  expect_limit("notice", pb::ToWorker(), kMaxTextBytes,
+               [](auto& m, Text text) { m.mutable_notice()->set_sentence(text); });
+}
+
+/// Each message with keys: what is not a key is refused everywhere, and so are too many items.
+TEST(Wire, KeysAreCheckedWhereverTheyAre) {
+  const auto expect_keys = [](const char* name, auto message, const auto& add, bool repeated) {
+    add(message).set_candidate(1);
+    EXPECT_EQ(fault_of(message), "") << name;
+    auto faulty = message;
+    add(faulty).set_candidate(0);
+    EXPECT_EQ(fault_of(faulty), "limits") << name;
+    if (!repeated) return;
+    for (int i = 1; i < kMaxItemsPerMessage; ++i)
+      add(message).set_candidate(1);
+    EXPECT_EQ(fault_of(message), "") << name;
+    add(message).set_candidate(1);
+    EXPECT_EQ(fault_of(message), "limits") << name;
+  };
+  using Up = pb::ToCoordinator;
+  using Down = pb::ToWorker;
+  const auto key_of_task = [](auto& m) -> auto& {
+    return *m.mutable_tasks()->add_tasks()->mutable_key();
+  };
+  const auto key_of_result = [](auto& m) -> auto& {
+    return *m.mutable_results()->add_results()->mutable_key();
+  };
+  const auto key_of_running = [](auto& m) -> auto& {
+    return *m.mutable_heartbeat()->add_running()->mutable_key();
+  };
+  expect_keys(
+      "holds", a_hello(), [](auto& m) -> auto& { return *m.mutable_hello()->add_holds(); }, true);
+  expect_keys("results", Up(), key_of_result, true);
+  expect_keys("running", Up(), key_of_running, true);
+  expect_keys("running", Down(), key_of_running, true);
+  expect_keys(
+      "returned", Up(), [](auto& m) -> auto& { return *m.mutable_returned()->add_keys(); }, true);
+  expect_keys(
+      "began", Up(), [](auto& m) -> auto& { return *m.mutable_began()->mutable_key(); }, false);
+  expect_keys("tasks", Down(), key_of_task, true);
+  expect_keys(
+      "acknowledged", Down(),
+      [](auto& m) -> auto& { return *m.mutable_acknowledged()->add_keys(); }, true);
+}
+
+TEST(Wire, TakesBodiesWithoutLimits) {
+  Arena arena;
+  const std::function<void(pb::ToCoordinator&)> up[] = {
+      [](auto& m) { m.mutable_want_status(); }, [](auto& m) { m.mutable_credit()->set_tasks(7); },
+      [](auto& m) { m.mutable_goodbye(); }, [](auto& m) { m.mutable_want_scenario(); }};
+  for (const auto& make : up) {
+    pb::ToCoordinator sent;
+    make(sent);
+    const auto received = value_of(decode_to_coordinator(encode(sent), arena));
+    EXPECT_EQ(received->SerializeAsString(), sent.SerializeAsString());
+    EXPECT_NE(received->body_case(), pb::ToCoordinator::BODY_NOT_SET);
+  }
+  const std::function<void(pb::ToWorker&)> down[] = {
+      [](auto& m) { m.mutable_scenario(); }, [](auto& m) { m.mutable_drain(); },
+      [](auto& m) { m.mutable_who_are_you(); }, [](auto& m) { m.mutable_command_reply(); },
+      [](auto& m) { m.mutable_status_reply(); }};
+  for (const auto& make : down) {
+    pb::ToWorker sent;
+    make(sent);
+    const auto received = value_of(decode_to_worker(encode(sent), arena));
+    EXPECT_EQ(received->SerializeAsString(), sent.SerializeAsString());
+    EXPECT_NE(received->body_case(), pb::ToWorker::BODY_NOT_SET);
+  }
+  EXPECT_EQ(fault_of(pb::ToWorker()), "");
 }
 
 TEST(Wire, CountsPartsBeforeItMakesThem) {
@@ -84,6 +206,29 @@ TEST(Wire, CountsPartsBeforeItMakesThem) {
   }
   EXPECT_LT(arena.SpaceAllocated(), 1U << 20U);
   EXPECT_EQ(fault_of(head + empty_parts(4, 9, 4000)), "") << "parts that are not known here";
+}
+
+/// The items of a message and 64 other fields; nested parts, and fields that are not messages,
+/// count.
+TEST(Wire, CountsEveryPart) {
+  const std::string head = encode(pb::ToCoordinator());
+  constexpr std::size_t kMostParts = kMaxItemsPerMessage + 64;
+  const auto numbers = [](std::size_t count) {
+    std::string fields;
+    for (std::size_t i = 0; i < count; ++i)
+      fields += std::string("\x78\x01", 2);  // field 15, the number 1
+    return fields;
+  };
+  EXPECT_EQ(fault_of(head + numbers(kMostParts)), "");
+  EXPECT_EQ(fault_of(head + numbers(kMostParts + 1)), "limits");
+  // Field 15 itself is a part, too.
+  EXPECT_EQ(fault_of(head + empty_parts(15, 9, kMostParts - 1)), "");
+  EXPECT_EQ(fault_of(head + empty_parts(15, 9, kMostParts)), "limits");
+  EXPECT_EQ(fault_of(head + numbers(1) + empty_parts(15, 9, kMostParts - 2)), "");
+  EXPECT_EQ(fault_of(head + numbers(1) + empty_parts(15, 9, kMostParts - 1)), "limits");
+  // Frames that are cut are no message: in a number, in a length, in a text.
+  for (const char* cut : {"\x78\x80", "\x7a\x80", "\x7a\x7f\x01", "\x78\x01\x7a\x04\x01"})
+    EXPECT_EQ(fault_of(head + cut), "protobuf");
 }
 
 /// As large as the limits let it be.
@@ -109,27 +254,56 @@ TEST(Wire, GivesBackWhatWasSent) {
   EXPECT_EQ(received->SerializeAsString(), sent.SerializeAsString());
 }
 
+TEST(Wire, BeginsWithTheVersions) {
+  // SWRM, version 4.1 as two little-endian words, and field 3 of the message.
+  EXPECT_EQ(encode(a_hello()).substr(0, 9), std::string("SWRM\4\0\1\0\x1a", 9));
+  EXPECT_EQ(encode(pb::ToWorker()), std::string("SWRM\4\0\1\0", 8));
+}
+
 TEST(Wire, NamesThePartThatIsWrong) {
   const std::string fine = encode(one_result(1.5));
+  Arena arena;
+  const auto error_of = [&](const std::string& frame) {
+    return why_not(decode_to_coordinator(frame, arena));
+  };
+  const auto bad = [](const std::string& message, const std::string& where) {
+    return Error{ErrorKind::BadInput, message, where};
+  };
   EXPECT_EQ(fault_of(fine), "");
-  EXPECT_EQ(fault_of(""), "length");
-  EXPECT_EQ(fault_of(fine.substr(0, 7)), "length");
-  EXPECT_EQ(fault_of(std::string(kMaxFrameBytes + 1, 'x')), "length");
-  google::protobuf::Arena arena;
-  EXPECT_EQ(decode_to_worker(std::string(kMaxFrameToWorkerBytes + 1, 'x'), arena).error().where,
-            "length");
-  EXPECT_EQ(decode_to_worker(std::string(kMaxFrameBytes + 1, 'x'), arena).error().where, "magic");
-  EXPECT_EQ(fault_of("GET / HTTP/1.1"), "magic");
-  EXPECT_EQ(fault_of(fine.substr(0, fine.size() - 1)), "protobuf");
+  EXPECT_EQ(error_of(""), bad("a frame of 0 bytes; expected 8 to 1048576", "length"));
+  EXPECT_EQ(error_of(fine.substr(0, 7)),
+            bad("a frame of 7 bytes; expected 8 to 1048576", "length"));
+  EXPECT_EQ(fault_of(fine.substr(0, 8)), "") << "an empty message";
+  EXPECT_EQ(error_of(std::string(kMaxFrameBytes + 1, 'x')),
+            bad("a frame of 1048577 bytes; expected 8 to 1048576", "length"));
+  EXPECT_EQ(fault_of(std::string(kMaxFrameBytes, 'x')), "magic");
+  EXPECT_EQ(why_not(decode_to_worker(std::string(kMaxFrameToWorkerBytes + 1, 'x'), arena)),
+            bad("a frame of 33554433 bytes; expected 8 to 33554432", "length"));
+  EXPECT_EQ(why_not(decode_to_worker(std::string(kMaxFrameToWorkerBytes, 'x'), arena)).where,
+            "magic");
+  EXPECT_EQ(error_of("GET / HTTP/1.1"), bad("a frame that does not begin with SWRM", "magic"));
+  EXPECT_EQ(error_of(fine.substr(0, fine.size() - 1)),
+            bad("a frame that is not a message of this protocol", "protobuf"));
+  EXPECT_EQ(error_of(encode(pb::ToCoordinator()) + empty_parts(15, 9, 5000)),
+            bad("a message with more parts than the protocol's limits", "limits"));
+  EXPECT_EQ(error_of(encode(one_result(std::numeric_limits<double>::infinity()))),
+            bad("a message with a value outside of the protocol's limits", "limits"));
 }
 
 TEST(Wire, TellsAnotherMajorVersionFromRubbish) {
   std::string frame = encode(one_result(1));
-  frame[4] = static_cast<char>(kProtocolMajor + 1);
   Arena arena;
-  const Error message = why_not(decode_to_coordinator(frame, arena));
-  EXPECT_EQ(message.kind, ErrorKind::Conflict);
-  EXPECT_NE(message.message.find("version " + std::to_string(kProtocolMajor)), std::string::npos);
+  // Both bytes of the number count.
+  for (const auto& [byte, version] : {std::pair(4, "5"), std::pair(5, "260")}) {
+    std::string other = frame;
+    ++other[static_cast<std::size_t>(byte)];
+    EXPECT_EQ(why_not(decode_to_coordinator(other, arena)),
+              (Error{ErrorKind::Conflict,
+                     std::string("the peer speaks version ") + version +
+                         " of the protocol, this program version 4: install the same release on "
+                         "both sides",
+                     "major version"}));
+  }
 }
 
 TEST(Wire, TakesAnotherMinorVersion) {
@@ -144,6 +318,12 @@ TEST(Wire, TakesABodyThatItDoesNotKnow) {
   Arena arena;
   const auto message = value_of(decode_to_coordinator(frame, arena));
   EXPECT_EQ(message->body_case(), pb::ToCoordinator::BODY_NOT_SET);
+}
+
+TEST(Wire, KnowsAScenarioByItsBytes) {
+  EXPECT_EQ(digest_of_scenario("abc"), digest_of_scenario(std::string("abc")));
+  EXPECT_NE(digest_of_scenario("abc"), digest_of_scenario("abd"));
+  EXPECT_NE(digest_of_scenario(""), digest_of_scenario("abc"));
 }
 
 TEST(Wire, RefusesScoresThatAreNoNumbersUnlessTheyFailed) {
@@ -211,7 +391,20 @@ TEST(Wire, NumbersFromAWorkerHaveLimits) {
     EXPECT_EQ(fault_with(set, kLargestCost), "");
     EXPECT_EQ(fault_with(set, 2 * kLargestCost), "limits");
   }
+  EXPECT_EQ(fault_with(score, -kLargestCost), "");
   EXPECT_EQ(fault_with(score, -2 * kLargestCost), "limits");
+  EXPECT_EQ(fault_with(time, 0.0), "");
+  for (const double wrong : {-1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(fault_with(time, wrong), "limits");
+  // Of a failure, only the score may be anything.
+  const auto failed_with = [&](const auto& set, double value) {
+    pb::ToCoordinator message = one_result(1);
+    kResult(message).set_failure("no score");
+    set(message, value);
+    return fault_of(message);
+  };
+  EXPECT_EQ(failed_with(score, 2 * kLargestCost), "");
+  EXPECT_EQ(failed_with(time, 2 * kLargestCost), "limits");
 }
 
 TEST(Wire, NumbersFromTheCoordinatorHaveLimits) {
@@ -249,42 +442,59 @@ TEST(Wire, NumbersFromTheCoordinatorHaveLimits) {
     EXPECT_EQ(fault_with(number.set, number.most + 1), "limits") << number.name;
   }
   const auto bound = [](pb::ToWorker& m, double v) { kTask(m).set_bound(v); };
-  EXPECT_EQ(fault_with(bound, 0.0), "");
-  EXPECT_EQ(fault_with(bound, -1.0), "limits");
+  for (const double fine : {0.0, kLargestCost})
+    EXPECT_EQ(fault_with(bound, fine), "");
+  for (const double wrong : {-1.0, 2 * kLargestCost, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(fault_with(bound, wrong), "limits");
 }
 
-TEST(Wire, RefusesMoreItemsThanAMessageMayHave) {
-  Arena arena;
-  EXPECT_TRUE(decode_to_worker(encode(some_tasks(kMaxItemsPerMessage)), arena));
-  EXPECT_EQ(why_not(decode_to_worker(encode(some_tasks(kMaxItemsPerMessage + 1)), arena)).where,
-            "limits");
+TEST(Wire, RefusesMoreNumbersThanAMessageMayHave) {
+  pb::ToWorker message = some_tasks(1);
+  for (int i = 0; i < kMaxItemsPerMessage; ++i)
+    message.mutable_tasks()->mutable_tasks(0)->add_alive(1);
+  EXPECT_EQ(fault_of(message), "");
+  message.mutable_tasks()->mutable_tasks(0)->add_alive(1);
+  EXPECT_EQ(fault_of(message), "limits");
+  pb::ToCoordinator hello = a_hello();
+  for (int i = 0; i < kMaxItemsPerMessage; ++i)
+    hello.mutable_hello()->add_attempts(1);
+  EXPECT_EQ(fault_of(hello), "");
+  hello.mutable_hello()->add_attempts(1);
+  EXPECT_EQ(fault_of(hello), "limits");
 }
 
-TEST(Wire, RefusesAHelloWithoutAName) {
-  pb::ToCoordinator message;
-  message.mutable_hello()->set_slots(1);
-  EXPECT_EQ(fault_of(encode(message)), "limits");
-  message.mutable_hello()->set_worker_id(std::string(kWorkerIdBytes, 'a'));
-  EXPECT_EQ(fault_of(encode(message)), "");
-  message.mutable_hello()->set_slots(kMaxSlots + 1);
-  EXPECT_EQ(fault_of(encode(message)), "limits");
-}
-
-TEST(Wire, RefusesACommandBeyondItsLimits) {
-  const auto fault_with = [](const auto& change) {
+TEST(Wire, RefusesAHelloWithoutANameOrSlots) {
+  const auto fault_with = [](const std::string& name, std::uint32_t slots) {
     pb::ToCoordinator message;
-    pb::Command& command = *message.mutable_command();
-    command.set_campaign(std::string(kMaxTextBytes, 'c'));
-    change(command);
-    return fault_of(encode(message));
+    message.mutable_hello()->set_worker_id(name);
+    message.mutable_hello()->set_slots(slots);
+    return fault_of(message);
   };
-  EXPECT_EQ(fault_with([](pb::Command&) {}), "");
-  const std::string long_text(kMaxTextBytes + 1, 'x');
-  EXPECT_EQ(fault_with([&](pb::Command& command) { command.set_campaign(long_text); }), "limits");
-  EXPECT_EQ(fault_with([&](pb::Command& command) { command.set_who(long_text); }), "limits");
-  EXPECT_EQ(fault_with([&](pb::Command& command) { command.set_whom(long_text); }), "limits");
-  EXPECT_EQ(fault_with([](pb::Command& command) { command.set_design(-1); }), "limits");
-  EXPECT_EQ(fault_with([](pb::Command& command) { command.set_budget(-1); }), "limits");
+  for (const std::size_t wrong : {std::size_t{0}, kWorkerIdBytes - 1, kWorkerIdBytes + 1})
+    EXPECT_EQ(fault_with(std::string(wrong, 'a'), 1), "limits") << wrong;
+  const std::string name(kWorkerIdBytes, 'a');
+  EXPECT_EQ(fault_with(name, 0), "limits");
+  EXPECT_EQ(fault_with(name, 1), "");
+  EXPECT_EQ(fault_with(name, kMaxSlots), "");
+  EXPECT_EQ(fault_with(name, kMaxSlots + 1), "limits");
+}
+
+TEST(Wire, LeasesOfAHelloHaveTheirKeysAttemptsAndSignatures) {
+  const auto fault_with = [](int keys, int attempts, int signatures) {
+    pb::ToCoordinator message = a_hello();
+    for (int i = 0; i < keys; ++i)
+      message.mutable_hello()->add_holds()->set_candidate(i + 1);
+    for (int i = 0; i < attempts; ++i)
+      message.mutable_hello()->add_attempts(1);
+    for (int i = 0; i < signatures; ++i)
+      message.mutable_hello()->add_signatures(1);
+    return fault_of(message);
+  };
+  EXPECT_EQ(fault_with(2, 2, 2), "");
+  EXPECT_EQ(fault_with(2, 0, 0), "") << "of an older worker";
+  EXPECT_EQ(fault_with(2, 2, 1), "limits");
+  EXPECT_EQ(fault_with(2, 1, 2), "limits");
+  EXPECT_EQ(fault_with(1, 2, 2), "limits");
 }
 
 }  // namespace

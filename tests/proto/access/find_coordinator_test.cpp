@@ -77,10 +77,15 @@ TEST_F(FindCoordinator, ByItsFileEncryptsWheneverTheFileHasAKey) {
 TEST_F(FindCoordinator, ByAFileWithoutAKeyIsPlaintextOnLoopbackOrWhereItIsInsistedOn) {
   write(kNear, "");
   EXPECT_EQ(found({.file = file}), "plain");
-  EXPECT_THAT(found({.file = file, .key = own}), HasSubstr("leave out --key"));
+  EXPECT_EQ(
+      found({.file = file, .key = own}),
+      file.string() + ": the coordinator does not encrypt, but a key was given; leave out --key");
   write(kFar, "");
-  EXPECT_THAT(found({.file = file}), HasSubstr("accept it with --insecure-plaintext"));
-  EXPECT_THAT(found({.file = file, .key = own}), HasSubstr("does not encrypt"));
+  EXPECT_EQ(found({.file = file}),
+            file.string() +
+                ": this coordinator does not encrypt; start it with keys (`swarmsmith keygen`), or "
+                "accept it with --insecure-plaintext");
+  EXPECT_THAT(found({.file = file, .key = own}), HasSubstr("does not encrypt; start it"));
   EXPECT_EQ(found({.file = file, .insecure_plaintext = true}), "plain");
   EXPECT_THAT(found({.file = file, .key = own, .insecure_plaintext = true}),
               HasSubstr("leave out --key"));
@@ -94,6 +99,9 @@ TEST_F(FindCoordinator, SaysWhereElseItMayBeFound) {
   const auto coordinator = find_coordinator({.file = file});
   EXPECT_EQ(coordinator->others, std::vector<std::string>{"tcp://10.0.0.1:5555"});
   EXPECT_EQ(coordinator->endpoint, kNear);
+  EXPECT_EQ(coordinator->keys->server_key, read_server_key(folder.server_key())->public_key);
+  EXPECT_EQ(find_coordinator({.endpoint = kFar})->endpoint, kFar);
+  EXPECT_EQ(find_coordinator({.endpoint = kNear})->endpoint, kNear);
   EXPECT_TRUE(find_coordinator({.endpoint = kNear})->others.empty());
 }
 
@@ -110,11 +118,17 @@ TEST_F(FindCoordinator, TakesTheKeyOfTheRoleOrTheOneThatIsNamed) {
   EXPECT_EQ(secret_of({.endpoint = kFar}), of_file(own));
   EXPECT_EQ(secret_of({.endpoint = kFar, .key = folder.client_key("reader")}),
             of_file(folder.client_key("reader")));
+  // An empty variable names nothing.
+  setenv("SWARMSMITH_KEY", "", 1);
+  EXPECT_EQ(default_client_key("reader"), folder.client_key("reader"));
 }
 
 TEST_F(FindCoordinator, RefusesAKeyOfAnotherCoordinator) {
   write(kFar, make_key_pair().public_key);
-  EXPECT_THAT(found({.file = file}), HasSubstr("is for another coordinator"));
+  EXPECT_EQ(found({.file = file}), folder.client_key("worker").string() +
+                                       ": this key is for another coordinator than the one in " +
+                                       file.string() +
+                                       "; use a key from that coordinator's folder");
   EXPECT_THAT(found({.file = file, .insecure_plaintext = true}),
               HasSubstr("is for another coordinator"));
 }
@@ -124,10 +138,14 @@ TEST_F(FindCoordinator, SaysWhatIsMissing) {
       << "it may come yet";
   std::filesystem::remove(folder.client_key("worker"));
   const Error keyless = why_not(find_coordinator({.endpoint = kFar}));
-  EXPECT_EQ(keyless.kind, ErrorKind::BadInput);
-  EXPECT_THAT(keyless.message, HasSubstr("tcp://login1:5555 needs a key"));
-  EXPECT_THAT(why_not(find_coordinator({.endpoint = kFar, .key = temporary / "no.key"})).message,
-              Not(HasSubstr("needs a key")));
+  EXPECT_EQ(keyless,
+            (Error{ErrorKind::BadInput,
+                   "there is no such key file, and tcp://login1:5555 needs a key; copy "
+                   "the one that `swarmsmith keygen` made, or name another file with --key",
+                   folder.client_key("worker").string()}));
+  EXPECT_EQ(
+      why_not(find_coordinator({.endpoint = kFar, .key = temporary / "no.key"})),
+      (Error{ErrorKind::BadInput, "there is no such key file", (temporary / "no.key").string()}));
 }
 
 }  // namespace

@@ -1,7 +1,11 @@
 #include "proto/scenario/scenario.h"
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <limits>
+#include <string>
+#include <utility>
 
 #include "base/text/toml_text.h"
 #include "proto/key.h"
@@ -21,6 +25,25 @@ WorkerScenario some_scenario() {
           .missions = {*built_in_mission("aggregation"), *built_in_mission("color_selection")},
           .methods = {{.flavour = "watermelon"}, {"watermelon-argos3", TurnClock::Seconds}},
           .profile = *built_in_profile("rvr")};
+}
+
+WorkerScenario with_programs() {
+  WorkerScenario scenario{.campaign_digest = "d", .engine_version = 3};
+  scenario.target = Target{.runner = "/r",
+                           .launcher = "/l",
+                           .command_line = "{seed}",
+                           .evaluator = "/e",
+                           .folder = "/f",
+                           .retries = 2,
+                           .timeout_s = 60,
+                           .timeout_is_rejection = true,
+                           .aclib = true,
+                           .batch_mode = BatchMode::HtCondor,
+                           .prints_time = true,
+                           .min_measurable_time = 0.5,
+                           .debug_level = 3};
+  scenario.instances = {{{"a", "b c"}, {"t\xff"}}, {}};
+  return scenario;
 }
 
 Expected<WorkerScenario> read_back(const WorkerScenario& scenario) {
@@ -53,8 +76,13 @@ TEST(Scenarios, GiveBackSeveralCampaignsAndNameTheFaultyOne) {
   other.missions[0].cycles = 0;
   EXPECT_THAT(scenarios_from_bytes(to_bytes({some_scenario(), other})).error().where,
               StartsWith("campaigns[1].simulation:"));
-  EXPECT_EQ(scenarios_from_bytes("").error().where, "campaigns");
-  EXPECT_FALSE(scenarios_from_bytes(to_bytes(PoolScenario(kMaxCampaigns + 1, other))));
+  EXPECT_EQ(why_not(scenarios_from_bytes("")),
+            (Error{ErrorKind::BadInput, "scenarios of 0 campaigns; wanted 1 to 64", "campaigns"}));
+  const PoolScenario most(kMaxCampaigns, with_programs());
+  EXPECT_EQ(scenarios_from_bytes(to_bytes(most)), most);
+  EXPECT_EQ(
+      why_not(scenarios_from_bytes(to_bytes(PoolScenario(kMaxCampaigns + 1, with_programs())))),
+      (Error{ErrorKind::BadInput, "scenarios of 65 campaigns; wanted 1 to 64", "campaigns"}));
 }
 
 TEST(Scenarios, GiveBackTheScenario) {
@@ -71,8 +99,9 @@ TEST(Scenarios, RefuseAClockOfTurnsThatIsNotKnown) {
   ASSERT_TRUE(message.ParseFromString(to_bytes({some_scenario()})));
   message.mutable_campaigns(0)->mutable_methods(1)->set_turn_clock(
       static_cast<pb::Method::TurnClock>(7));
-  EXPECT_EQ(why_not(scenarios_from_bytes(message.SerializeAsString())).where,
-            "methods[1].turn_clock");
+  EXPECT_EQ(why_not(scenarios_from_bytes(message.SerializeAsString())),
+            (Error{ErrorKind::BadInput, "a turn clock that this program does not know",
+                   "methods[1].turn_clock"}));
 }
 
 TEST(Scenarios, GiveBackTheMethods) {
@@ -122,7 +151,8 @@ TEST(Scenarios, GiveBackEveryKindOfScore) {
 }
 
 TEST(Scenarios, SayWhatIsWrongAndWhere) {
-  EXPECT_FALSE(scenarios_from_bytes("\xff\xff\xff"));
+  EXPECT_EQ(why_not(scenarios_from_bytes("\xff\xff\xff")),
+            (Error{ErrorKind::BadInput, "bytes that are not scenarios", ""}));
   const auto complaint = [](const std::function<void(WorkerScenario&)>& spoil) {
     WorkerScenario scenario = some_scenario();
     spoil(scenario);
@@ -165,32 +195,15 @@ TEST(Scenarios, MayNameNoFileOfTheWorker) {
 
 TEST(Scenarios, RefuseTextsThatAreNoSimulation) {
   EXPECT_THAT(complaint_about(""), HasSubstr("mission"));
-  EXPECT_THAT(complaint_about("[[mission]]\nname = \"aggregation\"\n"), HasSubstr("[profile]"));
+  const std::string mission = "[[mission]]\nname = \"aggregation\"\n";
+  EXPECT_EQ(complaint_about(mission), "simulation:1:1: a simulation needs a [profile]");
+  EXPECT_THAT(complaint_about("profile = 3\n" + mission), StartsWith("simulation:1:11: `profile`"));
   EXPECT_THAT(complaint_about(simulation_of(some_scenario()) + "more = 1\n"), HasSubstr("`more`"));
   EXPECT_THAT(complaint_about("a = " + std::string(100'000, '[')), HasSubstr("64 levels"));
   std::string many = "a = [0";
   for (int i = 0; i < 1'000'000; ++i)
     many += ",0";
   EXPECT_THAT(complaint_about(many + "]\n"), HasSubstr("more than 1000000 values"));
-}
-
-WorkerScenario with_programs() {
-  WorkerScenario scenario{.campaign_digest = "d", .engine_version = 3};
-  scenario.target = Target{.runner = "/r",
-                           .launcher = "/l",
-                           .command_line = "{seed}",
-                           .evaluator = "/e",
-                           .folder = "/f",
-                           .retries = 2,
-                           .timeout_s = 60,
-                           .timeout_is_rejection = true,
-                           .aclib = true,
-                           .batch_mode = BatchMode::HtCondor,
-                           .prints_time = true,
-                           .min_measurable_time = 0.5,
-                           .debug_level = 3};
-  scenario.instances = {{{"a", "b c"}, {"t\xff"}}, {}};
-  return scenario;
 }
 
 TEST(ScenariosOfPrograms, GiveBackThePrograms) {
@@ -202,23 +215,69 @@ TEST(ScenariosOfPrograms, AreCheckedWhenTheyCome) {
     WorkerScenario scenario = with_programs();
     spoil(*scenario.target);
     const auto read = read_back(scenario);
-    return read ? "fine" : read.error().where;
+    return read ? "fine" : to_string(read.error());
   };
-  EXPECT_EQ(complaint([](Target& t) { t.runner = "r"; }), "target.runner");
-  EXPECT_EQ(complaint([](Target& t) { t.launcher = "l"; }), "target.launcher");
-  EXPECT_EQ(complaint([](Target& t) { t.folder = ""; }), "target.folder");
-  EXPECT_EQ(complaint([](Target& t) { t.command_line += '\0'; }), "target.command_line");
-  EXPECT_EQ(complaint([](Target& t) { t.retries = -1; }), "target.retries");
-  EXPECT_EQ(complaint([](Target& t) { t.timeout_s = -1; }), "target.timeout_s");
-  EXPECT_EQ(complaint([](Target& t) { t.min_measurable_time = std::nan(""); }),
-            "target.min_measurable_time");
-  EXPECT_EQ(complaint([](Target& t) { t.debug_level = 4; }), "target.debug_level");
-  EXPECT_EQ(complaint([](Target& t) { t.batch_mode = static_cast<BatchMode>(9); }),
-            "target.batch_mode");
-  EXPECT_EQ(complaint([](Target& t) { t.evaluator.clear(); }), "target.evaluator");
-  WorkerScenario scenario = with_programs();
-  scenario.instances[0].test[0] += '\0';
-  EXPECT_EQ(read_back(scenario).error().where, "instances");
+  const std::string longest(128 * 1024, 'x');
+  constexpr std::int64_t kTenYears_s = std::int64_t{10} * 365 * 86'400;
+  const double infinite = std::numeric_limits<double>::infinity();
+  const std::function<void(Target&)> fine[] = {[](auto&) {},
+                                               [](auto& t) { t.launcher.clear(); },
+                                               [](auto& t) { t.batch_mode = BatchMode::None; },
+                                               [](auto& t) {
+                                                 t.batch_mode = BatchMode::None;
+                                                 t.evaluator.clear();
+                                               },
+                                               [&](auto& t) { t.command_line = longest; },
+                                               [&](auto& t) { t.runner = "/" + longest.substr(1); },
+                                               [](auto& t) { t.retries = 0; },
+                                               [](auto& t) { t.retries = 1'000'000; },
+                                               [](auto& t) { t.timeout_s = 0; },
+                                               [](auto& t) { t.timeout_s = kTenYears_s; },
+                                               [](auto& t) { t.min_measurable_time = 0; },
+                                               [](auto& t) { t.debug_level = 0; }};
+  for (const auto& change : fine)
+    EXPECT_EQ(complaint(change), "fine") << &change - fine;
+  const std::string path = ": not an absolute path";
+  const std::string number = ": a number outside of its limits";
+  const std::string text = ": too long, or with a NUL byte";
+  const std::pair<std::string, std::function<void(Target&)>> faulty[] = {
+      {"runner" + path, [](auto& t) { t.runner = "r"; }},
+      {"runner" + path, [](auto& t) { t.runner.clear(); }},
+      {"runner" + path, [&](auto& t) { t.runner = "/" + longest; }},
+      {"launcher" + path, [](auto& t) { t.launcher = "l"; }},
+      {"evaluator" + path, [](auto& t) { t.evaluator = "e"; }},
+      {"folder" + path, [](auto& t) { t.folder = ""; }},
+      {"folder" + path, [](auto& t) { t.folder += '\0'; }},
+      {"command_line" + text, [](auto& t) { t.command_line += '\0'; }},
+      {"command_line" + text, [&](auto& t) { t.command_line = longest + "x"; }},
+      {"retries" + number, [](auto& t) { t.retries = -1; }},
+      {"retries" + number, [](auto& t) { t.retries = 1'000'001; }},
+      {"timeout_s" + number, [](auto& t) { t.timeout_s = -1; }},
+      {"timeout_s" + number, [](auto& t) { t.timeout_s = kTenYears_s + 1; }},
+      {"min_measurable_time" + number, [](auto& t) { t.min_measurable_time = std::nan(""); }},
+      {"min_measurable_time" + number, [&](auto& t) { t.min_measurable_time = infinite; }},
+      {"min_measurable_time" + number, [](auto& t) { t.min_measurable_time = -0.5; }},
+      {"debug_level" + number, [](auto& t) { t.debug_level = -1; }},
+      {"debug_level" + number, [](auto& t) { t.debug_level = 4; }},
+      {"batch_mode: a batch system that this program does not know",
+       [](auto& t) { t.batch_mode = static_cast<BatchMode>(9); }},
+      {"evaluator: batch mode needs a targetEvaluator, which prints the costs",
+       [](auto& t) { t.evaluator.clear(); }}};
+  for (const auto& row : faulty)
+    EXPECT_EQ(complaint(row.second), "target." + row.first);
+  for (const bool test : {false, true}) {
+    const auto with_instance = [&](const std::string& instance) {
+      WorkerScenario scenario = with_programs();
+      InstanceTexts& texts = scenario.instances[0];
+      (test ? texts.test : texts.training)[0] = instance;
+      const auto read = read_back(scenario);
+      return read ? "fine" : to_string(read.error());
+    };
+    const std::string wrong = "instances: an instance that is too long, or has a NUL byte";
+    EXPECT_EQ(with_instance(longest), "fine");
+    EXPECT_EQ(with_instance(longest + "x"), wrong);
+    EXPECT_EQ(with_instance(std::string("a\0", 2)), wrong);
+  }
 }
 
 }  // namespace
