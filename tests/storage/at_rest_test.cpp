@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <variant>
@@ -144,6 +145,18 @@ TEST_F(AtRestTest, KeepsWhatIsThereUntilItIsRemoved) {
   EXPECT_THAT(all("SELECT score FROM v_design_scores"), ElementsAre(Cells{"9"}));
 }
 
+TEST_F(AtRestTest, KeepsTheTextOfEachProfileOnce) {
+  using Profiles = std::map<std::string, std::string>;
+  auto store = value_of(StoreAtRest::open(path_, IfMissing::Make));
+  Addition addition = imported(1, 1);
+  addition.profiles = {{"gentle", "noise = 1"}, {"", "of no name"}};
+  ASSERT_TRUE(store->add(addition));
+  ASSERT_TRUE(store->add({.profiles = {{"gentle", "noise = 1"}, {"rough", "noise = 2"}}}));
+  EXPECT_EQ(why_not(store->add({.profiles = {{"gentle", "noise = 3"}}})).kind, ErrorKind::Conflict);
+  EXPECT_EQ(open_reader(path_)->kept_profiles(),
+            (Profiles{{"", "of no name"}, {"gentle", "noise = 1"}, {"rough", "noise = 2"}}));
+}
+
 TEST_F(AtRestTest, StaysOutWhileACampaignWrites) {
   const SyntheticCampaign made = synthetic_campaign({.designs = 2, .iterations = 1});
   const auto campaign = Store::open(path_, made.campaign, made.designs);
@@ -159,6 +172,11 @@ TEST_F(AtRestTest, TellsTheFlavoursOfAnOldStoresDesigns) {
     ASSERT_TRUE(StoreAtRest::open(path_, IfMissing::Refuse, {{.id = {1}, .flavour = "chocolate"}}));
   }
   EXPECT_THAT(all("SELECT design, flavour FROM v_designs"), ElementsAre(Cells{"1", "chocolate"}));
+  for (const char* other : {"", "watermelon"}) {
+    ASSERT_TRUE(StoreAtRest::open(path_, IfMissing::Refuse, {{.id = {1}, .flavour = other}}));
+    EXPECT_THAT(all("SELECT flavour FROM v_designs"), ElementsAre(Cells{"chocolate"}))
+        << "it has one already";
+  }
 }
 
 TEST_F(AtRestTest, LeavesTheCampaignThatRunsThereAlone) {

@@ -4,9 +4,14 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/rng.h"
 #include "storage/answer.h"
+#include "storage/internal/schema.h"
+#include "storage/internal/sqlite.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/checks.h"
 
@@ -151,6 +156,187 @@ TEST_F(CandidateCodeTest, ParametersInLongFormAreThoseOfTheText) {
                 " json_each(c.parameters) AS j)"),
             "0");
   EXPECT_GT(std::stoul(one("SELECT count(*) FROM v_parameters")), 1000U);
+}
+
+CandidateRow row_of(const std::string& machine, const std::string& parameters,
+                    const std::string& modules) {
+  return {
+      .id = {1}, .parent = {}, .parameters = parameters, .machine = machine, .modules = modules};
+}
+
+/// What is stored: "machine|parameters|modules|code|module code".
+std::string text_of(const StoredTexts& texts) {
+  return fmt::format("{}|{}|{}|{}|{}", texts.machine, texts.parameters, texts.modules,
+                     texts.code.value_or("none"), texts.module_code.value_or("none"));
+}
+
+/// The example of candidate_code.h, with modules.
+CandidateRow example() {
+  return row_of("--s0 0 --rwm0 56 --n0 1 --n0x0 0 --p0x0 0.5",
+                R"({"S0":"exploration","RWM0":56,"NumConnections0":1,"N0x0":0,"P0x0":0.5})",
+                R"({"a":1,"b":2,"c":3})");
+}
+
+TEST(PhraseBook, CutsTextsBehindNumbersAndPairsOfModules) {
+  PhraseBook book;
+  std::vector<std::string> phrases;
+  const StoredTexts stored = book.encode(example(), [&](std::int64_t number, const Phrase& phrase) {
+    phrases.push_back(fmt::format("{}|{}|{}|{}", number, phrase.machine.value_or("none"),
+                                  phrase.parameters.value_or("none"),
+                                  phrase.modules.value_or("none")));
+  });
+  EXPECT_EQ(text_of(stored), R"(|||{"1":"56","2":"0.5"}|[3,4])");
+  EXPECT_THAT(phrases,
+              ElementsAre(R"(1|--s0 0 --rwm0 |"S0":"exploration","RWM0":|none)",
+                          R"(2|--n0 1 --n0x0 0 --p0x0 |"NumConnections0":1,"N0x0":0,"P0x0":|none)",
+                          R"(3|none|none|"a":1,"b":2)", R"(4|none|none|"c":3)"));
+  CandidateRow back;
+  ASSERT_TRUE(book.decode(stored, back));
+  EXPECT_EQ(back.machine, example().machine);
+  EXPECT_EQ(back.parameters, example().parameters);
+  EXPECT_EQ(back.modules, example().modules);
+}
+
+/// Each switch of a machine belongs to a parameter, and ends with its number.
+TEST(PhraseBook, KnowsWhichMachinesRunAlongTheirParameters) {
+  struct Case {
+    const char *machine, *parameters;
+    bool runs_along;
+  };
+  for (const auto& [machine, parameters, runs_along] :
+       {Case{"--a 1 --b 2", R"({"a":1,"b":2})", true}, Case{"--a 1 -b 2", R"({"a":1,"b":2})", true},
+        Case{"x --b 2", R"({"a":"t","b":2})", true}, Case{"x -b", R"({"a":"t","b":"u"})", true},
+        Case{"--a 1 --b 3", R"({"a":1,"b":2})", false}, Case{"--a 1", R"({"a":1,"b":2})", false},
+        Case{"--a 1 --b 2 --c", R"({"a":1,"b":2})", false},
+        // Numbers are no switches.
+        Case{"--a -0 --b -9", R"({"a":-0,"b":-9})", true},
+        Case{"--a -.5 --b 1", R"({"a":"t","b":1})", true}, Case{"--a -/5", R"({"a":"t"})", false},
+        Case{"--a -:5", R"({"a":"t"})", false}, Case{"--a 5", R"({"a":-5})", false},
+        Case{"t", R"({"a":"t"})", true}, Case{"", R"({"a":"t"})", true}}) {
+    PhraseBook book;
+    const StoredTexts stored =
+        book.encode(row_of(machine, parameters, ""), [](std::int64_t, const Phrase&) {});
+    EXPECT_TRUE(stored.code) << machine;
+    EXPECT_EQ(stored.parameters, "") << machine;
+    EXPECT_EQ(stored.machine, runs_along ? "" : machine);
+    CandidateRow back;
+    EXPECT_TRUE(book.decode(stored, back));
+    EXPECT_EQ(back.machine, machine);
+    EXPECT_EQ(back.parameters, parameters);
+  }
+}
+
+TEST(PhraseBook, CutsFlatObjectsAndLeavesOtherTextsAsTheyAre) {
+  const auto stored = [](const std::string& text) {
+    PhraseBook book;
+    const StoredTexts texts =
+        book.encode(row_of("", text, text), [](std::int64_t, const Phrase&) {});
+    EXPECT_EQ(texts.code.has_value(), texts.module_code.has_value()) << text;
+    EXPECT_EQ(texts.parameters, texts.code ? "" : text);
+    EXPECT_EQ(texts.modules, texts.code ? "" : text);
+    CandidateRow back;
+    EXPECT_TRUE(book.decode(texts, back));
+    EXPECT_EQ(back.parameters, text);
+    EXPECT_EQ(back.modules, text);
+    return texts.code.has_value();
+  };
+  for (const std::string text :
+       {R"({"a":1})", R"({"":0})", R"({"a":-1.5e+30})", R"({"a":1E5})", R"({"a":true,"b":null})",
+        R"({"a":"\"","b":"\\"})", R"({"a":"}{,:"})", R"({"a\"":"x"})", R"({"a":""})",
+        R"({"a":azAB})"})
+    EXPECT_EQ(stored(text), text.find("AB") == std::string::npos) << text;
+  for (const std::string& text : {std::string(),
+                                  std::string("{"),
+                                  std::string("{}"),
+                                  std::string("x"),
+                                  std::string(R"({"a":1)"),
+                                  std::string(R"({"a":1}x)"),
+                                  std::string(R"({"a"})"),
+                                  std::string(R"({"a":})"),
+                                  std::string(R"({"a":1,})"),
+                                  std::string(R"({"a":1,"b"})"),
+                                  std::string(R"({"a":[1]})"),
+                                  std::string(R"({"a":{}})"),
+                                  std::string(R"({"a": 1})"),
+                                  std::string(R"({"a":1 })"),
+                                  std::string(R"({"a":"x})"),
+                                  std::string(R"({"a":"\"})"),
+                                  std::string(R"({a:1})"),
+                                  std::string(R"({"a" 1})"),
+                                  std::string(R"({"a";1})"),
+                                  std::string(R"({"a":1;"b":2})"),
+                                  std::string(R"(["a":1})"),
+                                  std::string(R"({"a":1])"),
+                                  std::string(R"({"a":"x")"),
+                                  std::string("{\"a\":\"\0\"}", 9)})
+    EXPECT_FALSE(stored(text)) << text;
+}
+
+TEST(PhraseBook, ReadsCodesToTheirEndAndNothingElse) {
+  PhraseBook book;
+  book.encode(example(), [](std::int64_t, const Phrase&) {});
+  const auto decoded = [&](const std::string& code, const std::string& module_code) {
+    StoredTexts texts{.machine = "as it is", .parameters = {}, .modules = {}};
+    if (!code.empty()) texts.code = code;
+    if (!module_code.empty()) texts.module_code = module_code;
+    CandidateRow row;
+    if (!book.decode(texts, row)) return std::string("not a code");
+    return row.machine + "|" + row.parameters + "|" + row.modules;
+  };
+  EXPECT_EQ(decoded("", ""), "as it is||");
+  EXPECT_EQ(decoded(R"({"1":"7"})", ""), R"(as it is|{"S0":"exploration","RWM0":7}|)");
+  EXPECT_EQ(decoded("", "[4,3]"), R"(as it is||{"c":3,"a":1,"b":2})");
+  for (const char* code : {"{", "{}", R"("1":"7"})", R"({1":"7"})", R"({"1:"7"})", R"({"x":"7"})",
+                           R"({"1":"7})", R"({"1":"7",})", R"({"1":"7")", R"({"1":"7"}x)",
+                           R"({"9":"7"})", R"({"1":7})", R"(["1":"7"})", R"({"1":"7"])"})
+    EXPECT_EQ(decoded(code, ""), "not a code") << code;
+  for (const char* code : {"[", "[]", "3]", "[3", "[3]x", "[3,]", "[x]", "[9]", "{3]", "[3}"})
+    EXPECT_EQ(decoded("", code), "not a code") << code;
+}
+
+/// A phrase with so many bytes of modules, and what is between it and the next one.
+struct LongPhrase {
+  PhraseBook book;
+  StoredTexts texts;
+  CandidateRow row;
+
+  explicit LongPhrase(std::size_t bytes) {
+    const std::string modules = R"({"k":")" + std::string(bytes - 7, 'x') + "\"}";
+    texts = book.encode(row_of("", "", modules), [&](std::int64_t, const Phrase& phrase) {
+      EXPECT_EQ(phrase.modules->size(), bytes - 1);
+    });
+  }
+  bool decoded() { return book.decode(texts, row); }
+};
+
+TEST(PhraseBook, MakesEightMebibytesOfOneTextAndSixtyFourOfAll) {
+  LongPhrase most(8 << 20);
+  for (int text = 1; text <= 8; ++text)
+    EXPECT_TRUE(most.decoded()) << text;
+  EXPECT_FALSE(most.decoded());
+  EXPECT_FALSE(LongPhrase((8 << 20) + 1).decoded());
+}
+
+TEST(PhraseBook, MakesSixtyFourTimesAStoreAndSixtyFourMebibytes) {
+  constexpr std::int64_t kPart = 1 << 20;
+  sqlite::Connection memory(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  create_tables(memory, kSchemaVersion);
+  sqlite::Statement(memory, "INSERT INTO phrase VALUES (4, NULL, NULL, ?)")
+      .run(std::string(kPart - 1, 'x'));
+  PhraseBook book;
+  book.load(memory);
+  StoredTexts texts{.machine = {}, .parameters = {}, .modules = {}};
+  texts.module_code = "[4]";
+  std::int64_t times = 0;
+  CandidateRow row;
+  while (times < 1000 && book.decode(texts, row))
+    ++times;
+  const std::int64_t size = sqlite::integer_of(memory, "PRAGMA page_count") *
+                            sqlite::integer_of(memory, "PRAGMA page_size");
+  EXPECT_EQ(times, (64 * size + (64 << 20)) / kPart);
+  std::vector<std::int64_t> fresh;
+  book.encode(example(), [&](std::int64_t number, const Phrase&) { fresh.push_back(number); });
+  EXPECT_THAT(fresh, ElementsAre(5, 6, 7, 8)) << "after those of the store";
 }
 
 TEST_F(CandidateCodeTest, AMachineThatDoesNotRunAlongItsParametersStaysAsItIs) {

@@ -348,6 +348,30 @@ TEST_F(MergeTest, RefusesTheSameCampaignTwice) {
   EXPECT_THAT(files(), Not(Contains(HasSubstr("out.db"))));
 }
 
+TEST_F(MergeTest, KeepsOneFlavourOfEachName) {
+  const auto write = [&](const fs::path& path, std::uint64_t seed, int number) {
+    SyntheticCampaign made = campaign_of_all_kinds(seed, 1);
+    made.campaign.file = fmt::format(
+        "format = 1\n[[method]]\nname = \"m\"\n[method.flavour]\nname = \"mine\"\n"
+        "base = \"watermelon\"\n[method.flavour.behaviours]\nstop = {{ number = {} }}\n",
+        number);
+    write_store(path, made);
+  };
+  write(folder / "c.db", 11, 7);
+  write(folder / "d.db", 12, 7);
+  write(folder / "e.db", 13, 8);
+  ASSERT_TRUE(merge_stores({folder / "c.db", folder / "d.db"}, out, kUnwatched));
+  const std::string stops =
+      "SELECT number FROM flavour_name WHERE flavour = 'mine' AND name = 'stop'";
+  EXPECT_EQ(cells_of(*open_reader(out), stops), (std::vector<Cells>{{"7"}}));
+  EXPECT_EQ(cells_of(*open_reader(folder / "e.db"), stops), (std::vector<Cells>{{"8"}}));
+  EXPECT_EQ(
+      why_not(merge_stores({folder / "c.db", folder / "e.db"}, folder / "all.db", kUnwatched))
+          .message,
+      "two campaigns have different flavours of the name mine, and a store identifies modules "
+      "by it; give one of them another name, or keep them in stores of their own");
+}
+
 TEST_F(MergeTest, TakesUnfinishedCampaignsWithAWarning) {
   SyntheticCampaign unfinished = campaign_of_all_kinds(4, 1);
   unfinished.batches.resize(2);

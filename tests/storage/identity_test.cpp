@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <condition_variable>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <mutex>
@@ -67,6 +68,9 @@ struct IdentityTest : testing::Test {
     EXPECT_EQ(why_not(store->flush()).kind, ErrorKind::Conflict);
     store.reset();
     EXPECT_EQ(digest_of(saved), wanted());
+    EXPECT_TRUE(fs::exists(path.string() + ".lock")) << "so that the next program checks it";
+    for (const char* ending : {"-wal", "-shm"})
+      EXPECT_FALSE(fs::exists(path.string() + ending)) << ending;
     // As the sentence says.
     fs::rename(saved, path);
     EXPECT_NE(open_store(path, campaign), nullptr);
@@ -163,6 +167,29 @@ TEST_F(IdentityTest, AStoreThatIsDeletedJustBeforeItIsClosedIsSavedToo) {
   fs::remove(path);
   store.reset();
   EXPECT_EQ(digest_of(path.string() + ".saved"), wanted());
+}
+
+TEST_F(IdentityTest, ALogThatReplacesTheStoresStaysThere) {
+  const fs::path log = path.string() + "-wal";
+  auto store = filled_store();
+  std::ofstream(folder / "other") << "another log";
+  fs::rename(folder / "other", log);
+  store.reset();
+  EXPECT_EQ(whole_file(log), "another log");
+  EXPECT_EQ(digest_of(path.string() + ".saved"), wanted());
+}
+
+TEST_F(IdentityTest, AStoreWhoseFolderIsDeletedIsSavedWhereTheProcessIs) {
+  const fs::path elsewhere = folder / "elsewhere", home = fs::current_path();
+  fs::create_directory(elsewhere);
+  fs::create_directory(folder / "store");
+  path = folder / "store" / "s.db";
+  auto store = filled_store();
+  fs::remove_all(path.parent_path());
+  fs::current_path(elsewhere);
+  store.reset();
+  fs::current_path(home);
+  EXPECT_EQ(digest_of(elsewhere / "s.db.saved"), wanted());
 }
 
 TEST_F(IdentityTest, NothingIsSavedOverAnotherFile) {

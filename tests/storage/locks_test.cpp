@@ -3,9 +3,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <sstream>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -108,6 +110,48 @@ TEST_F(LocksTest, NothingThatIsDoneWithAStoreTakesTheLockOfItsWriterAway) {
   });
 }
 
+TEST(LockFiles, NameTheirHolderToThoseWhoMayReadTheStore) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "s.db", file = path.string() + ".lock";
+  std::array<char, 256> host{};
+  ASSERT_EQ(::gethostname(host.data(), host.size() - 1), 0);
+  const std::string holder = fmt::format("pid={} host={}", ::getpid(), host.data());
+  const auto mode = [&] {
+    struct stat facts {};
+    return ::stat(file.c_str(), &facts) == 0 ? facts.st_mode & 0777U : 0U;
+  };
+  const mode_t mask = ::umask(0);
+  for (const mode_t of_store : {0U, 0600U, 0644U, 0755U}) {
+    if (of_store != 0) {
+      std::ofstream(path).flush();
+      ::chmod(path.c_str(), of_store);
+    }
+    const auto lock = LockFile::acquire(path, {});
+    ASSERT_TRUE(lock);
+    EXPECT_EQ(whole_file(file), holder + "\n");
+    EXPECT_EQ(mode(), of_store == 0 ? 0600U : of_store & 0666U) << of_store;
+    EXPECT_FALSE(lock->left_behind());
+    EXPECT_EQ(to_string(why_not(LockFile::acquire(path, {}))),
+              path.string() + ": another process is writing this store (" + holder +
+                  "); wait for it to end or stop it, or read with a read-only command");
+  }
+  ::umask(mask);
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_THAT(in_use_text(""), HasSubstr("this store (its name is unknown); wait"));
+  std::ofstream(file) << "\n\n";
+  EXPECT_FALSE(value_of(LockFile::acquire(path, {})).left_behind()) << "it names no process";
+  std::ofstream(file) << "pid=1 host=x and much more that is longer than our text, which it is not"
+                         " any more afterwards\n";
+  {
+    auto lock = value_of(LockFile::acquire(path, {}));
+    EXPECT_TRUE(lock.left_behind());
+    EXPECT_EQ(whole_file(file), holder + "\n");
+    lock.set_suspect(true);
+  }
+  EXPECT_TRUE(std::filesystem::exists(file)) << "its store is suspect";
+  EXPECT_TRUE(value_of(LockFile::acquire(path, {})).left_behind());
+}
+
 TEST(HasWriter, GoesByTheProcessThatTheLockFileNames) {
   const TemporaryFolder folder;
   const SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 1});
@@ -128,6 +172,9 @@ TEST(HasWriter, GoesByTheProcessThatTheLockFileNames) {
   ASSERT_EQ(::gethostname(host.data(), host.size() - 1), 0);
   EXPECT_TRUE(left_by(fmt::format("pid={} host={}\n", ::getpid(), host.data())));
   EXPECT_FALSE(left_by(fmt::format("pid=99999999 host={}\n", host.data())));
+  EXPECT_FALSE(left_by(fmt::format("pid=0 host={}\n", host.data())));
+  EXPECT_FALSE(left_by(fmt::format("pid=-1 host={}\n", host.data())));
+  EXPECT_FALSE(left_by(fmt::format("of {}\n", ::getpid())));
   EXPECT_FALSE(left_by(""));
 }
 

@@ -1,3 +1,7 @@
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"
@@ -171,6 +175,50 @@ TEST(OldViews, AStoreThatLacksViewsAloneIsReadThroughTheNewOnes) {
   EXPECT_EQ(cells_of(*reader, "SELECT count(*) FROM v_module_frequency WHERE avg_reachable > 0"),
             cells_of(*reader, "SELECT count(*) FROM v_module_frequency"));
   EXPECT_EQ(cells_of(*reader, "PRAGMA user_version"), (std::vector<Cells>{{"6"}}));
+}
+
+TEST(OldViews, StayAsTheyAreWithoutAStepToALaterSchema) {
+  const TemporaryFolder folder;
+  const auto path = folder / "old.db";
+  std::filesystem::copy_file(SWARMSMITH_TEST_DATA "/stores/schema-6.sqlite", path);
+  const std::string before = whole_file(path);
+  {
+    sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
+    migrate(connection, path, {});
+    migrate(connection, path, migrations().first(5));  // to schema 6
+  }
+  EXPECT_EQ(whole_file(path), before);
+  EXPECT_FALSE(std::filesystem::exists(path.string() + ".before-v6"));
+}
+
+TEST(OldStores, HaveCommandsFromTheThirdSchemaOn) {
+  for (const int schema : {2, 3}) {
+    const auto reader = open_reader(std::string(SWARMSMITH_TEST_DATA) + "/stores/schema-" +
+                                    std::to_string(schema) + ".sqlite");
+    const auto tables = cells_of(*reader, "PRAGMA table_info(command)");
+    EXPECT_EQ(tables.empty(), schema == 2);
+    EXPECT_EQ(reader->commands().empty(),
+              schema == 2 || cells_of(*reader, "SELECT count(*) FROM command")[0][0] == "0");
+  }
+}
+
+TEST(OldStores, HaveShortTextsInTheColumnsOfTheirSchema) {
+  const TemporaryFolder folder;
+  for (const char* column : {"flavour", "name", "mission"}) {
+    const auto path = folder / (std::string(column) + ".db");
+    std::filesystem::copy_file(SWARMSMITH_TEST_DATA "/stores/schema-4.sqlite", path);
+    const auto set = [&](int bytes) {
+      sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE)
+          .execute("UPDATE design SET " + std::string(column) + " = printf('%." +
+                   std::to_string(bytes) + "c', 'x')");
+    };
+    set(1000);
+    EXPECT_TRUE(StoreReader::open(path));
+    set(1001);
+    EXPECT_EQ(why_not(StoreReader::open(path)).message,
+              "a " + std::string(column) +
+                  " in the store's table design has 1001 bytes; the limit is 1000");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Schema, MigrationTest, testing::ValuesIn(kOldStores),

@@ -1,5 +1,11 @@
+#include <filesystem>
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "storage/internal/printed_ids.h"
+#include "storage/internal/query.h"
 #include "storage/internal/sqlite.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/checks.h"
@@ -48,18 +54,68 @@ TEST_F(QueryTest, FindsIdsAsTheyArePrinted) {
   EXPECT_EQ(count("design = 'c3'"), "0");
 }
 
+TEST(PrintedIds, BecomeNumbersWhereAColumnOfIdsIsComparedWithThem) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"candidate = 'c3'", "candidate = 3"},
+      {"'c3' = candidate", "3 = candidate"},
+      {"'c3' = k.candidate", "3 = k.candidate"},
+      {"'c3' = main.k.candidate", "3 = main.k.candidate"},
+      {"design = 'd12' OR parent='c1' OR best_candidate='c2' OR best='c4' OR name='c5'",
+       "design = 12 OR parent=1 OR best_candidate=2 OR best=4 OR name='c5'"},
+      {"\"Design\"='d1' OR [design]='d2' OR `DESIGN`='d3' OR 'design'='d4'",
+       "\"Design\"=1 OR [design]=2 OR `DESIGN`=3 OR 'design'='d4'"},
+      {"design=='d1' OR design<'d2' OR design>'d3' OR design<='d4' OR design>='d5'",
+       "design==1 OR design<2 OR design>3 OR design<=4 OR design>=5"},
+      {"design<>'d1' OR 'd2'!=design OR design+'d3'", "design<>1 OR 2!=design OR design+'d3'"},
+      {"candidate IN ('c1', 'c2','c3')", "candidate IN (1, 2,3)"},
+      {"candidate not in ('c1','c2')", "candidate not in (1,2)"},
+      {"candidate BETWEEN 'c1' AND 'c2'", "candidate BETWEEN 1 AND 2"},
+      {"candidate NOT BETWEEN 'c1' AND 'c2'", "candidate NOT BETWEEN 1 AND 2"},
+      {"candidate IS 'c1' OR candidate IS NOT 'c2'", "candidate IS 1 OR candidate IS NOT 2"},
+      {"'c1' OR candidate AND 'c2'", "'c1' OR candidate AND 'c2'"},
+      {"candidate NOT 'c1'", "candidate NOT 'c1'"},
+      {"candidate = f('c1','c2')", "candidate = f('c1','c2')"},
+      {"= 'c1'", "= 'c1'"},
+      {"'c1' =", "'c1' ="},
+      {"'c1' = k.", "'c1' = k."},
+      {"candidate = 'd1' OR design = 'c1'", "candidate = 'd1' OR design = 'c1'"},
+      {"candidate = 'c' OR candidate = 'c1x'", "candidate = 'c' OR candidate = 'c1x'"},
+      {"'it''s c1' = candidate OR candidate = 'c2'", "'it''s c1' = candidate OR candidate = 2"},
+      {"candidate --\n= 'c3'", "candidate --\n= 3"},
+      {"candidate -- 'c8'\n= 'c3' -- 'c9'", "candidate -- 'c8'\n= 3 -- 'c9'"},
+      {"candidate /**/ = /* 'c8' */ 'c3'", "candidate /**/ = /* 'c8' */ 3"},
+      {"candidate /*/ = 'c3'", "candidate /*/ = 'c3'"},
+      {"my_candidate='c1' OR candidate$='c2' OR candidate1='c3' OR \xc3\xa9"
+       "candidate='c4'",
+       "my_candidate='c1' OR candidate$='c2' OR candidate1='c3' OR \xc3\xa9"
+       "candidate='c4'"},
+      {"candidate='c1", "candidate='c1"},
+      {"SELECT 1", "SELECT 1"},
+      {"", ""}};
+  for (const auto& [typed, sql] : cases)
+    EXPECT_EQ(with_numbers_of_ids(typed), sql);
+}
+
 TEST_F(QueryTest, GivesColumnsAndCellsWithTheirTypes) {
-  const auto end = query("SELECT 1 AS one, 0.1 AS tenth, 'it''s' AS text, NULL AS none;");
+  const auto end = query(
+      "SELECT 1 AS one, 0.1 AS tenth, 'it''s' AS text, NULL AS none, x'6162' AS blob, x'' AS empty"
+      "; ;\n ");
   ASSERT_TRUE(end);
   EXPECT_EQ(end->rows, 1);
   EXPECT_FALSE(end->truncated);
-  EXPECT_THAT(columns, ElementsAre("one", "tenth", "text", "none"));
+  EXPECT_THAT(columns, ElementsAre("one", "tenth", "text", "none", "blob", "empty"));
   ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(rows[0][0].type, Cell::Type::Integer);
-  EXPECT_EQ(rows[0][1].text, "0.1");
-  EXPECT_EQ(rows[0][1].type, Cell::Type::Real);
-  EXPECT_EQ(rows[0][2].text, "it's");
-  EXPECT_EQ(rows[0][3].type, Cell::Type::Null);
+  using Type = Cell::Type;
+  using Shown = std::vector<std::pair<Type, std::string>>;
+  Shown cells;
+  for (const Cell& cell : rows[0])
+    cells.emplace_back(cell.type, cell.text);
+  EXPECT_EQ(cells, (Shown{{Type::Integer, "1"},
+                          {Type::Real, "0.1"},
+                          {Type::Text, "it's"},
+                          {Type::Null, ""},
+                          {Type::Text, "ab"},
+                          {Type::Text, ""}}));
 }
 
 TEST_F(QueryTest, TellsColumnsOfAnAnswerWithoutRows) {
@@ -97,10 +153,124 @@ TEST_F(QueryTest, RefusesWhateverIsNotReading) {
 }
 
 TEST_F(QueryTest, AllowsToAskForTheShapeOfTables) {
-  EXPECT_TRUE(query("PRAGMA table_info(design)"));
-  EXPECT_FALSE(rows.empty());
-  EXPECT_TRUE(query("PRAGMA user_version"));
-  EXPECT_TRUE(query("EXPLAIN QUERY PLAN SELECT * FROM v_designs"));
+  for (const char* sql :
+       {"PRAGMA table_info(design)", "PRAGMA table_xinfo(design)", "PRAGMA table_list",
+        "PRAGMA index_list(source)", "PRAGMA index_info(sqlite_autoindex_source_1)",
+        "PRAGMA foreign_key_list(candidate)", "PRAGMA collation_list", "PRAGMA compile_options",
+        "PRAGMA user_version", "PRAGMA application_id", "PRAGMA page_size", "PRAGMA page_count",
+        "PRAGMA freelist_count", "SELECT name FROM pragma_table_info('design')",
+        "EXPLAIN QUERY PLAN SELECT * FROM v_designs"}) {
+    EXPECT_TRUE(query(sql)) << sql;
+    EXPECT_FALSE(rows.empty()) << sql;
+  }
+  for (const char* sql : {"PRAGMA user_version = 3", "PRAGMA application_id = 3",
+                          "PRAGMA page_size = 512", "PRAGMA cache_size", "PRAGMA page_count = 1"}) {
+    const Error refused = why_not(query(sql, {.typed = true}));
+    EXPECT_EQ(refused.message,
+              "a query may only read: no writing, attaching, transactions or settings");
+    EXPECT_EQ(refused.where, sql);
+  }
+}
+
+/// Each error about a statement that a person typed, and about one of our own.
+TEST_F(QueryTest, SaysInAWholeSentenceWhatIsWrong) {
+  struct Case {
+    std::string sql, typed, own;
+  };
+  const std::string many =
+      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 9000) SELECT "
+      "group_concat(printf('%01000d', i)) FROM n";
+  const std::vector<Case> cases{
+      {"SELECT abs(-9223372036854775807 - 1)", "integer overflow", "integer overflow"},
+      {"SELECT json('{')", "malformed JSON", "malformed JSON"},
+      {"SELECT missing", "no such column: missing", "no such column: missing"},
+      {many,
+       "the query needs more memory than 3 MB; ask for fewer rows or columns, or sort and group "
+       "less",
+       "this takes more memory than 3 MB, the limit for reading a store; ask for one design or "
+       "mission"},
+      {"SELECT zeroblob(26214401)", "a value in the query is longer than 25 MB, the limit",
+       "the store has a value of more than 25 MB"},
+      {"DELETE FROM event",
+       "a query may only read: no writing, attaching, transactions or settings",
+       "its views are not those of its schema; `swarmsmith backup` makes a copy with the right "
+       "ones"},
+      {"SELECT 1, " + std::string(1 << 20, ' ') + "2", "the query is longer than 1 MB", ""}};
+  for (const auto& [sql, typed, own] : cases) {
+    const Error of_person = why_not(query(sql, {.seconds = 600, .memory = 3 << 20, .typed = true}));
+    EXPECT_EQ(of_person.message, typed);
+    EXPECT_EQ(of_person.where, sql.size() > (1 << 20) ? "" : sql);
+    if (own.empty()) continue;
+    const Error of_ours = why_not(query(sql, {.seconds = 600, .memory = 3 << 20}));
+    EXPECT_EQ(of_ours.message, own);
+    EXPECT_EQ(of_ours.where, path.string());
+  }
+  EXPECT_EQ(to_string(why_not(query(" -- nothing"))),
+            to_string(Error{ErrorKind::BadInput, "the query is empty", " -- nothing"}));
+  const Error second = why_not(query("SELECT 1; SELECT 2"));
+  EXPECT_EQ(second.message, "one statement at a time, please");
+  EXPECT_EQ(second.where, " SELECT 2");
+}
+
+TEST_F(QueryTest, OfADamagedTableEndsAsAFailureOfTheStore) {
+  reader.reset();
+  const std::int64_t root =
+      sqlite::integer_of(sqlite::Connection(path.string(), SQLITE_OPEN_READONLY),
+                         "SELECT rootpage FROM sqlite_schema WHERE name = 'evaluation'");
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary).seekp((root - 1) * 8192)
+      << std::string(8192, '\xff');
+  reader = open_reader(path);
+  EXPECT_THROW(static_cast<void>(query("SELECT count(*) FROM v_evaluations", {.typed = true})),
+               StoreFailure);
+  EXPECT_THAT(reader->integrity(), Contains("database disk image is malformed"))
+      << "what cannot be looked for is a fault, too";
+}
+
+/// The rules for a statement of a person hold for it alone.
+TEST(Query, LeavesItsConnectionAsItWas) {
+  sqlite::Connection memory(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  memory.execute("CREATE TABLE t (a); CREATE VIEW v AS SELECT 1");
+  constexpr int kLimits[] = {SQLITE_LIMIT_SQL_LENGTH, SQLITE_LIMIT_LIKE_PATTERN_LENGTH,
+                             SQLITE_LIMIT_ATTACHED, SQLITE_LIMIT_WORKER_THREADS};
+  const auto state = [&] {
+    std::vector<std::int64_t> numbers;
+    for (const int limit : kLimits)
+      numbers.push_back(sqlite3_limit(memory.handle(), limit, -1));
+    int views = -1;
+    sqlite3_db_config(memory.handle(), SQLITE_DBCONFIG_ENABLE_VIEW, -1, &views);
+    numbers.push_back(views);
+    numbers.push_back(sqlite3_hard_heap_limit64(-1));
+    return numbers;
+  };
+  const std::vector<std::int64_t> before = state();
+  for (const StoreReader::QueryLimits& limits :
+       {StoreReader::QueryLimits{}, StoreReader::QueryLimits{.seconds = 0},
+        StoreReader::QueryLimits{.typed = true, .views_of_file = true}}) {
+    std::vector<std::int64_t> within;
+    const auto end = run_query(
+        memory, "SELECT 1", limits, [&](const auto&) { within = state(); }, [](const auto&) {});
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->truncated, limits.seconds == 0);
+    EXPECT_EQ(within[0], 1 << 20);
+    EXPECT_EQ(within[4], 1) << "the views of a store of an early schema are read";
+    EXPECT_EQ(state(), before);
+  }
+  memory.execute("INSERT INTO t VALUES (1); ATTACH ':memory:' AS other");
+}
+
+TEST(Query, MayUseItsMemoryWhateverElseSqliteHas) {
+  sqlite::Connection large(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  large.execute("CREATE TABLE t AS SELECT zeroblob(20000000) AS a");
+  sqlite::Connection memory(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  const auto bytes_of = [&](const std::string& sql) {
+    std::size_t bytes = 0;
+    const auto end = run_query(
+        memory, sql, {.memory = 8 << 20, .typed = true}, [](const auto&) {},
+        [&](const auto& cells) { bytes = cells[0].text.size(); });
+    return end ? bytes : 0;
+  };
+  EXPECT_EQ(bytes_of("SELECT printf('%.*c', 1000000, 'x')"), 1'000'000U);
+  EXPECT_EQ(bytes_of("SELECT printf('%.*c', 20000000, 'x')"), 0U);
 }
 
 TEST_F(QueryTest, RefusesMistakesWithTheReasonOfSqlite) {
@@ -156,10 +326,12 @@ TEST_F(QueryTest, SortsOnTheDiskOfTheStore) {
 }
 
 TEST_F(QueryTest, StopsAtTheLimitOfRows) {
-  const auto end = value_of(query("SELECT * FROM v_evaluations", {.rows = 3}));
-  EXPECT_EQ(end.rows, 3);
-  EXPECT_TRUE(end.truncated);
-  EXPECT_FALSE(query("SELECT * FROM v_designs", {.rows = 1})->truncated);
+  for (const std::int64_t most : {0, 2, 3, 4}) {
+    const auto end = value_of(query("VALUES (1), (2), (3)", {.rows = most}));
+    EXPECT_EQ(end.rows, std::min<std::int64_t>(most, 3));
+    EXPECT_EQ(rows.size(), static_cast<std::size_t>(end.rows));
+    EXPECT_EQ(end.truncated, most < 3);
+  }
 }
 
 TEST_F(QueryTest, StopsAtTheLimitOfTimeAlsoBeforeTheFirstRow) {
@@ -205,14 +377,25 @@ TEST_F(QueryTest, TakesNoMoreMemoryThanItMay) {
   EXPECT_EQ(sqlite3_hard_heap_limit64(-1), 0) << "and that of all queries";
 }
 
+/// Texts and blobs have their bytes, and each cell has a few of its own.
 TEST_F(QueryTest, StopsAtTheLimitOfBytes) {
-  const std::string many =
-      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 1000000) "
-      "SELECT printf('%01000d', i) FROM n";
-  const auto end = value_of(query(many, {.bytes = 1 << 20}));
-  EXPECT_TRUE(end.truncated);
-  EXPECT_GT(end.rows, 900);
-  EXPECT_LT(end.rows, 1100);
+  const std::string sql =
+      "SELECT printf('%0100d', a), zeroblob(50), a FROM (SELECT 1 AS a UNION"
+      " SELECT 2 UNION SELECT 3)";
+  const auto row = static_cast<std::int64_t>(150 + 3 * sizeof(Cell));
+  for (const std::int64_t less : {0, 1}) {
+    const auto end = value_of(query(sql, {.bytes = 3 * row - less}));
+    EXPECT_EQ(end.rows, 3 - less);
+    EXPECT_EQ(end.truncated, less == 1);
+  }
+  EXPECT_EQ(value_of(query(sql, {.bytes = 0})).rows, 0);
+}
+
+TEST_F(QueryTest, MayHaveARowOfFiftyMegabytes) {
+  EXPECT_TRUE(query("SELECT zeroblob(26214400), zeroblob(26214400)"));
+  EXPECT_EQ(to_string(why_not(query("SELECT zeroblob(26214400), zeroblob(26214400), 'x'"))),
+            to_string(Error{ErrorKind::BadInput,
+                            "a row of the answer has 50 MB; the limit is 50 MB", path.string()}));
 }
 
 TEST_F(QueryTest, FindsNoFaultInASoundStoreAndSaysWhatIsWrongInAnother) {

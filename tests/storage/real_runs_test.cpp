@@ -3,8 +3,21 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
 #include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
+#include "storage/internal/mend_real_runs.h"
+#include "storage/internal/real_run_parts.h"
+#include "storage/internal/real_run_reader.h"
+#include "storage/internal/real_run_writer.h"
+#include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
@@ -61,10 +74,301 @@ TEST_F(RealRunsTest, ComeBackAsTheyWereWrittenAndAreNoPartOfTheAnswer) {
   EXPECT_THAT(open_reader(path)->integrity(), IsEmpty());
   const auto heads = open_reader(path)->real_runs();
   ASSERT_EQ(heads.size(), 1U);
-  EXPECT_EQ(heads[0].key, rows.key);
-  EXPECT_EQ(heads[0].score, 3.25);
-  EXPECT_EQ(heads[0].candidate, kWinner);
-  EXPECT_TRUE(heads[0].counts);
+  const RealRunHead& head = heads[0];
+  EXPECT_EQ(std::tie(head.id, head.key, head.name, head.mission, head.candidate, head.score,
+                     head.verdict, head.counts, head.scorings),
+            std::tuple(id, rows.key, rows.name, rows.mission, kWinner, std::optional(3.25),
+                       std::string("VALID"), true, 1));
+  // Tags of no robot have no pose.
+  EXPECT_THAT(all("SELECT DISTINCT tag, robot, x, y, theta FROM v_real_samples"
+                  " WHERE robot IS NULL OR x IS NULL OR y IS NULL OR theta IS NULL OR robot < 0"),
+              ElementsAre(Cells{"77", "NULL", "NULL", "NULL", "NULL"}));
+}
+
+/// Every field has a value that no other field of its row has.
+TEST_F(RealRunsTest, HaveEachFieldInItsPlace) {
+  RealRunRows rows = synthetic_real_run(1, kWinner);
+  rows.source = "filmed";
+  rows.arena_file = "an arena";
+  rows.mission_file = "a mission";
+  rows.log = "a log";
+  rows.score.reasons = R"(["a reason"])";
+  rows.score.biased = true;
+  double number = 1;
+  const auto next = [&number](auto&... fields) {
+    ((fields = static_cast<std::remove_reference_t<decltype(fields)>>(++number)), ...);
+  };
+  const auto maybe = [&number](auto&... fields) { ((fields = ++number + 0.5), ...); };
+  RealRobotRow& robot = rows.robots[0];
+  next(robot.tag, robot.measured, robot.interpolated, robot.degraded, robot.missing,
+       robot.longest_gap_s, robot.outliers, robot.scale, robot.residual_m, robot.sigma_m,
+       robot.sigma_rad);
+  maybe(robot.border_m);
+  RealSampleRow& sample = rows.samples[0];
+  next(sample.frame, sample.time_s, sample.tag, sample.hamming, sample.margin, sample.x, sample.y,
+       sample.theta, sample.use);
+  for (double& corner : sample.corners)
+    next(corner);
+  RealReferenceRow& reference = rows.references[0];
+  next(reference.time_s, reference.tag, reference.frames);
+  for (double& corner : reference.corners)
+    next(corner);
+  RealVideoRow& video = rows.videos[0];
+  next(video.width, video.height, video.frames, video.damaged_frames);
+  RealPatchRow& patch = rows.patches[0];
+  next(patch.x, patch.y, patch.width_m, patch.height_m, patch.radius_m);
+  RealCycleRow& cycle = rows.cycles[0];
+  next(cycle.x, cycle.y, cycle.theta, cycle.kind);
+  RealLogRow& log = rows.logs[0];
+  log.reasons = R"(["another"])";
+  log.latency_reason = "a doubt";
+  next(log.stepped, log.held, log.skipped);
+  maybe(log.clock_offset_s, log.latency_s, log.latency_error_s, log.agreement);
+  RealLogCycleRow& step = rows.log_cycles[0];
+  step.event = "an event";
+  next(step.time_s, step.clock_s, step.late_ms, step.state, step.left_mps, step.right_mps,
+       step.drawn);
+  maybe(step.ages_ms[0], step.ages_ms[1], step.ages_ms[2], step.ages_ms[3]);
+  rows.issues[0].robot = "rvr2";
+  maybe(rows.issues[0].from_s, rows.issues[0].to_s);
+  rows.checks[0].subject = "ceiling";
+  rows.checks[0].reason = "none";
+  maybe(rows.checks[0].value, rows.checks[0].limit);
+  const RealRunId id = added(rows);
+  EXPECT_EQ(stored(id), in_order(rows));
+  ASSERT_TRUE(opened()->rescore_real_run(id, rows));
+  EXPECT_EQ(stored(id), in_order(rows)) << "scored again";
+}
+
+constexpr double kBad = std::numeric_limits<double>::infinity();
+
+TEST(RealRunRows, WithANumberThatIsNotFiniteAreRefused) {
+  const RealRunRows good = synthetic_real_run(1, {});
+  EXPECT_NO_THROW(require_whole(good));
+  using Change = std::function<void(RealRunRows&)>;
+  const std::pair<const char*, Change> changes[] = {
+      {"the run run01", [](auto& r) { r.duration_s = kBad; }},
+      {"the run run01", [](auto& r) { r.score.score = -kBad; }},
+      {"the calibration of rvr2", [](auto& r) { r.calibrations.back().rms = kBad; }},
+      {"the frame times of run1-wall.mp4", [](auto& r) { r.videos[1].frame_times[2] = kBad; }},
+      {"the robot rvr2", [](auto& r) { r.robots[1].longest_gap_s = kBad; }},
+      {"the robot rvr2", [](auto& r) { r.robots[1].scale = kBad; }},
+      {"the robot rvr2", [](auto& r) { r.robots[1].residual_m = kBad; }},
+      {"the robot rvr2", [](auto& r) { r.robots[1].sigma_m = kBad; }},
+      {"the robot rvr2", [](auto& r) { r.robots[1].sigma_rad = kBad; }},
+      {"the robot rvr2", [](auto& r) { r.robots[1].border_m = kBad; }},
+      {"tag 77 of frame 0", [](auto& r) { r.samples[2].time_s = kBad; }},
+      {"tag 77 of frame 0", [](auto& r) { r.samples[2].margin = kBad; }},
+      {"tag 77 of frame 0", [](auto& r) { r.samples[2].x = kBad; }},
+      {"tag 77 of frame 0", [](auto& r) { r.samples[2].y = kBad; }},
+      {"tag 77 of frame 0", [](auto& r) { r.samples[2].theta = kBad; }},
+      {"tag 77 of frame 0", [](auto& r) { r.samples[2].corners[7] = kBad; }},
+      {"the floor tag 101", [](auto& r) { r.references[1].time_s = kBad; }},
+      {"the floor tag 101", [](auto& r) { r.references[1].corners[0] = kBad; }},
+      {"a patch", [](auto& r) { r.patches[1].x = kBad; }},
+      {"a patch", [](auto& r) { r.patches[1].y = kBad; }},
+      {"a patch", [](auto& r) { r.patches[1].width_m = kBad; }},
+      {"a patch", [](auto& r) { r.patches[1].height_m = kBad; }},
+      {"a patch", [](auto& r) { r.patches[1].radius_m = kBad; }},
+      {"cycle 1", [](auto& r) { r.cycles[2].x = kBad; }},
+      {"cycle 1", [](auto& r) { r.cycles[2].y = kBad; }},
+      {"cycle 1", [](auto& r) { r.cycles[2].theta = kBad; }},
+      {"the log run01.rvr2.log.csv", [](auto& r) { r.logs[1].clock_offset_s = kBad; }},
+      {"the log run01.rvr2.log.csv", [](auto& r) { r.logs[1].latency_s = kBad; }},
+      {"the log run01.rvr2.log.csv", [](auto& r) { r.logs[1].latency_error_s = kBad; }},
+      {"the log run01.rvr2.log.csv", [](auto& r) { r.logs[1].agreement = kBad; }},
+      {"cycle 2 of a robot's log", [](auto& r) { r.log_cycles[2].time_s = kBad; }},
+      {"cycle 2 of a robot's log", [](auto& r) { r.log_cycles[2].clock_s = kBad; }},
+      {"cycle 2 of a robot's log", [](auto& r) { r.log_cycles[2].late_ms = kBad; }},
+      {"cycle 2 of a robot's log", [](auto& r) { r.log_cycles[2].left_mps = kBad; }},
+      {"cycle 2 of a robot's log", [](auto& r) { r.log_cycles[2].right_mps = kBad; }},
+      {"cycle 2 of a robot's log", [](auto& r) { r.log_cycles[2].ages_ms[3] = kBad; }},
+      {"the check scale of the tag", [](auto& r) { r.checks[1].value = kBad; }},
+      {"the check scale of the tag", [](auto& r) { r.checks[1].limit = kBad; }},
+      {"the issue W_OUTLIERS", [](auto& r) { r.issues[1].from_s = kBad; }},
+      {"the issue W_OUTLIERS", [](auto& r) { r.issues[1].to_s = kBad; }}};
+  int place = 0;
+  for (const auto& [what, change] : changes) {
+    RealRunRows rows = good;
+    change(rows);
+    ++place;
+    try {
+      require_whole(rows);
+      ADD_FAILURE() << place << ": " << what;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(error.what(), "a number is not finite in " + std::string(what)) << place;
+    }
+  }
+}
+
+TEST(RealRunRows, NameTheCalibrationThatIsNotAmongThem) {
+  const RealRunRows good = synthetic_real_run(1, {});
+  const auto complaint = [&](const std::function<void(RealRunRows&)>& change) {
+    RealRunRows rows = good;
+    change(rows);
+    try {
+      require_whole(rows);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint([](auto& r) { r.videos[1].camera_calibration = "x"; }),
+            "the camera calibration of wall is not among the rows");
+  EXPECT_EQ(complaint([](auto& r) { r.videos[0].place_calibration = "x"; }),
+            "the place calibration of ceiling is not among the rows");
+  EXPECT_EQ(complaint([](auto& r) { r.robots[1].offset_calibration = "x"; }),
+            "the offset calibration of rvr2 is not among the rows");
+  EXPECT_EQ(complaint([](auto& r) { r.robots[1].offset_calibration = ""; }), "");
+  // The same file for another camera, or of another kind, is another calibration.
+  EXPECT_EQ(complaint([](auto& r) { r.videos[1].camera = "ceiling"; }),
+            "the camera calibration of ceiling is not among the rows");
+  EXPECT_EQ(
+      complaint([](auto& r) { r.videos[0].camera_calibration = r.videos[0].place_calibration; }),
+      "the camera calibration of ceiling is not among the rows");
+}
+
+/// What a score follows from, one by one.
+TEST(RealRunRows, HaveOtherInputsWithEachChangeOfOne) {
+  const RealRunRows a = synthetic_real_run(1, kWinner);
+  const std::vector<std::pair<std::string, std::function<void(RealRunRows&)>>> changes{
+      {"the candidate", [](auto& r) { r.candidate = {}; }},
+      {"the mission", [](auto& r) { r.mission = "x"; }},
+      {"the mission", [](auto& r) { r.mission_file = "x"; }},
+      {"the run log", [](auto& r) { r.log = "x"; }},
+      {"the run log", [](auto& r) { r.source = "x"; }},
+      {"the run log", [](auto& r) { r.name = "x"; }},
+      {"the run log", [](auto& r) { r.recorded = "x"; }},
+      {"the arena file", [](auto& r) { r.arena_file = "x"; }},
+      {"calibrations", [](auto& r) { r.videos[1].camera_calibration = "x"; }},
+      {"calibrations", [](auto& r) { r.videos[1].place_calibration = "x"; }},
+      {"calibrations", [](auto& r) { r.robots[1].offset_calibration = "x"; }},
+      {"the robots' logs", [](auto& r) { r.logs[1].head = "x"; }},
+      {"the robots' logs", [](auto& r) { r.log_cycles.pop_back(); }}};
+  EXPECT_THAT(differing_inputs(a, a), IsEmpty());
+  EXPECT_TRUE(same_scoring(a, a));
+  RealRunRows all = a;
+  for (const auto& [what, change] : changes) {
+    RealRunRows b = a;
+    change(b);
+    change(all);
+    EXPECT_EQ(differing_inputs(a, b), std::vector{what});
+    EXPECT_FALSE(same_scoring(a, b)) << what;
+    EXPECT_TRUE(same_sightings(a, b)) << what;
+  }
+  EXPECT_THAT(differing_inputs(a, all),
+              ElementsAre("the candidate", "the mission", "the run log", "the arena file",
+                          "calibrations", "the robots' logs"));
+  int place = 0;
+  for (const std::function<void(RealRunRows&)>& change :
+       std::vector<std::function<void(RealRunRows&)>>{
+           [](auto& r) { r.key = "x"; }, [](auto& r) { r.score.score = 9; },
+           [](auto& r) { r.score.verdict = "INVALID"; }, [](auto& r) { r.score.biased = true; },
+           [](auto& r) { r.score.reasons = "[1]"; }}) {
+    RealRunRows b = a;
+    change(b);
+    EXPECT_THAT(differing_inputs(a, b), IsEmpty());
+    EXPECT_FALSE(same_scoring(a, b)) << ++place;
+  }
+  for (const std::function<void(RealRunRows&)>& change :
+       std::vector<std::function<void(RealRunRows&)>>{
+           [](auto& r) { r.videos[1].sha256 = "x"; }, [](auto& r) { r.videos.pop_back(); },
+           [](auto& r) { r.samples[1].video = 1; }, [](auto& r) { r.samples[1].frame = 1; },
+           [](auto& r) { r.samples[1].tag = 9; }, [](auto& r) { r.samples[1].corners[7] += 0.001; },
+           [](auto& r) { r.samples.pop_back(); }}) {
+    RealRunRows b = a;
+    change(b);
+    EXPECT_FALSE(same_sightings(a, b)) << ++place;
+  }
+  RealRunRows b = a;
+  b.samples[1].corners[7] += 0.0001;  // is stored as the same
+  b.samples[1].x += 1;
+  EXPECT_TRUE(same_sightings(a, b));
+}
+
+/// A run that lost rows of one table; its score stays if it follows from the others.
+TEST_F(RealRunsTest, ThatLostPartsAreMendedAndNameThem) {
+  added(synthetic_real_run(1, kWinner));
+  RealRunRows biased = synthetic_real_run(2, kWinner);
+  biased.score.biased = true;
+  added(biased);
+  const fs::path whole = folder / "whole.db";
+  fs::copy_file(path, whole);
+  const auto mended = [&](const std::string& sql) {
+    fs::copy_file(whole, path, fs::copy_options::overwrite_existing);
+    sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
+    connection.execute("PRAGMA foreign_keys = OFF; " + sql);
+    return mend_real_runs(connection);
+  };
+  const auto scores = [&] {
+    return all(
+        "SELECT run, scoring, score, verdict, biased, reasons, program, report"
+        " FROM v_real_scores WHERE program = 'swarmsmith recover' ORDER BY run");
+  };
+  const auto lost = [](const std::string& what) {
+    return R"(["rows of its )" + what + R"( were lost with the damaged store"])";
+  };
+  EXPECT_EQ(mended(""), 0);
+  EXPECT_THAT(scores(), IsEmpty());
+  for (const RealRunPart& part : kRealRunParts) {
+    EXPECT_EQ(mended(std::string("DELETE FROM ") + part.table + " WHERE run = 2"), 0);
+    EXPECT_THAT(scores(), ElementsAre(Cells{"2", "2", part.is_scored ? "NULL" : "2.25", "INVALID",
+                                            "1", lost(part.column), "swarmsmith recover", "{}"}));
+    sqlite::Connection connection(path.string(), SQLITE_OPEN_READONLY);
+    EXPECT_THAT(faults_of_real_runs(connection), IsEmpty()) << part.table;
+  }
+  EXPECT_EQ(mended("DELETE FROM real_score WHERE run = 1; DELETE FROM real_video WHERE run = 1;"
+                   "DELETE FROM calibration WHERE kind = 'offset'"),
+            0);
+  EXPECT_THAT(scores(),
+              ElementsAre(Cells{"1", "1", "NULL", "INVALID", "0",
+                                lost("scores, videos, calibrations"), "swarmsmith recover", "{}"},
+                          Cells{"2", "2", "2.25", "INVALID", "1", lost("calibrations"),
+                                "swarmsmith recover", "{}"}));
+  EXPECT_EQ(mended("UPDATE real_run SET candidate = 999 WHERE id = 2"), 0);
+  EXPECT_THAT(all("SELECT id, candidate FROM v_real_runs"),
+              ElementsAre(Cells{"r1", "1"}, Cells{"r2", "NULL"}));
+}
+
+TEST_F(RealRunsTest, ThatLostTheirRowLoseTheirParts) {
+  added(synthetic_real_run(1, kWinner));
+  added(synthetic_real_run(2, kWinner));
+  ASSERT_TRUE(opened()->add_override({{2}, "VALID", "ada", "x"}));
+  std::int64_t rows = 0;
+  std::vector<std::string> tables(std::begin(kRealRunNotes), std::end(kRealRunNotes));
+  for (const RealRunPart& part : kRealRunParts)
+    tables.emplace_back(part.table);
+  for (const std::string& table : tables)
+    rows += std::stoll(all("SELECT count(*) FROM " + table + " WHERE run = 2")[0][0]);
+  sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
+  connection.execute("PRAGMA foreign_keys = OFF; DELETE FROM real_run WHERE id = 2");
+  EXPECT_EQ(mend_real_runs(connection), rows);
+  for (const std::string& table : tables)
+    EXPECT_EQ(all("SELECT count(*) FROM " + table + " WHERE run <> 1")[0], Cells{"0"}) << table;
+  EXPECT_EQ(stored({1}), in_order(synthetic_real_run(1, kWinner)));
+}
+
+/// Stores of the first schema that had real runs, and of the one before it.
+TEST(RealRunsOfEarlySchemas, AreReadFromTheFifthOn) {
+  for (const std::int64_t schema : {4, 5}) {
+    sqlite::Connection memory(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    create_tables(memory, schema);
+    finish_schema(memory, schema);
+    if (schema == 5) {
+      memory.execute(
+          "INSERT INTO real_run (id, key, source, mission, name, recorded, duration, mission_file,"
+          " arena_file, log, samples) VALUES (3, 'k', 's', 'm', 'n', '', 1.5, '', '', '', 2)");
+    }
+    const auto run = read_real_run(memory, {3});
+    ASSERT_EQ(run.has_value(), schema == 5);
+    if (run) EXPECT_EQ(run->duration_s, 1.5);
+    EXPECT_EQ(faults_of_real_runs(memory),
+              schema == 5 ? (std::vector<std::string>{
+                                "the real run r3 has no score",
+                                "the real run r3 lacks rows of its samples, or has too many"})
+                          : std::vector<std::string>{});
+    EXPECT_FALSE(read_real_run(memory, {4}));
+  }
 }
 
 TEST_F(RealRunsTest, TimesKeepTheirBitsAndCornersTheirThousandths) {

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <string>
@@ -10,10 +12,12 @@
 
 #include "base/rng.h"
 #include "storage/internal/page_image.h"
+#include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/checks.h"
+#include "tests/support/not_empty.h"
 #include "tests/support/synthetic_real_run.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/write_ahead_log.h"
@@ -81,10 +85,104 @@ struct RecoverTest : testing::Test {
       "SELECT id, score, state_digest, source FROM v_evaluations";
 };
 
+/// What was lost of each table that lost something: "pair: 2 pages, 1 broken".
+std::string losses(const Salvaged& found) {
+  std::string text;
+  for (const SalvagedTable& table : found.tables) {
+    if (table.lost_pages == 0 && table.broken == 0 && !table.tree_is_lost) continue;
+    text += (text.empty() ? "" : ", ") + table.name + ": " + std::to_string(table.lost_pages) +
+            " pages, " + std::to_string(table.broken) + " broken" +
+            (table.tree_is_lost ? ", tree" : "");
+  }
+  return text;
+}
+
 TEST_F(RecoverTest, AWholeStoreComesOutWhole) {
   EXPECT_EQ(recovered(), digest);
   EXPECT_FALSE(found.header_is_damaged);
   EXPECT_EQ(found.unplaced, 0);
+  EXPECT_EQ(found.schema, kSchemaVersion);
+  EXPECT_EQ(found.pages, static_cast<std::int64_t>(bytes.size() / kPage));
+  EXPECT_EQ(found.changed_evaluations, 0);
+  EXPECT_EQ(losses(found), "");
+  sqlite::Connection connection(damaged.string(), SQLITE_OPEN_READONLY);
+  for (const SalvagedTable& table : not_empty(found.tables)) {
+    EXPECT_EQ(table.rows, sqlite::integer_of(connection, "SELECT count(*) FROM " + table.name))
+        << table.name;
+  }
+  EXPECT_EQ(
+      static_cast<std::int64_t>(found.tables.size()),
+      sqlite::integer_of(connection, "SELECT count(*) FROM sqlite_schema WHERE type = 'table'"));
+}
+
+/// The first page of a table's tree, counted from 0.
+std::size_t root_of(const fs::path& store, const std::string& name) {
+  return static_cast<std::size_t>(
+      sqlite::integer_of(sqlite::Connection(store.string(), SQLITE_OPEN_READONLY),
+                         "SELECT rootpage - 1 FROM sqlite_schema WHERE name = '" + name + "'"));
+}
+
+TEST_F(RecoverTest, PagesToWhichNoTreeLeadsHaveTheirRows) {
+  const std::size_t root = root_of(damaged, "candidate") * kPage;
+  ASSERT_EQ(bytes[root], 5) << "a page that leads to others";
+  std::string broken = bytes;
+  broken.replace(root, kPage, kPage, '\0');
+  write_bytes(damaged, broken);
+  EXPECT_EQ(recovered(), digest);
+  EXPECT_EQ(losses(found), "candidate: 1 pages, 0 broken");
+  EXPECT_EQ(found.unplaced, 0);
+  // As a page of another kind, which no table with rowids has.
+  broken[root] = 10;
+  write_bytes(damaged, broken);
+  EXPECT_EQ(recovered(), digest);
+  EXPECT_EQ(losses(found), "candidate: 1 pages, 0 broken");
+}
+
+TEST_F(RecoverTest, RowsOfAPageBehindTheOthersGoToTheOneTableThatTheyFit) {
+  const fs::path other = folder / "other.db";
+  {
+    sqlite::Connection connection(other.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    connection.execute(
+        "PRAGMA page_size = 8192; CREATE TABLE t (id INTEGER PRIMARY KEY, name TEXT);"
+        "INSERT INTO t VALUES (700, 'a source'), (701, 'another'), (702, NULL)");
+  }
+  write_bytes(damaged, bytes + whole_file(other).substr(kPage, kPage));
+  EXPECT_EQ(recovered(), digest) << "no score is of these sources";
+  EXPECT_EQ(std::ranges::find(found.tables, "source", &SalvagedTable::name)->rows, 3);
+  EXPECT_EQ(found.unplaced, 0);
+  EXPECT_EQ(found.pages, static_cast<std::int64_t>(bytes.size() / kPage) + 1);
+  EXPECT_EQ(losses(found), "");
+}
+
+TEST_F(RecoverTest, WhatWasDeletedStaysDeleted) {
+  {
+    sqlite::Connection connection(damaged.string(), SQLITE_OPEN_READWRITE);
+    connection.execute(
+        "PRAGMA secure_delete = OFF; WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM"
+        " n LIMIT 3000) INSERT INTO event (severity, kind, text) SELECT 'info', 'mark', i FROM n;"
+        "DELETE FROM event WHERE kind = 'mark'; PRAGMA wal_checkpoint(TRUNCATE)");
+    ASSERT_GT(sqlite::integer_of(connection, "PRAGMA freelist_count"), 5);
+  }
+  EXPECT_EQ(recovered(), digest);
+  EXPECT_EQ(std::ranges::find(found.tables, "event", &SalvagedTable::name)->rows, 0);
+  EXPECT_EQ(losses(found), "");
+}
+
+/// The size of pages follows from what is on them, or from the log.
+TEST_F(RecoverTest, WithoutHeaderPagesOfAnySizeAreFound) {
+  sqlite::Connection(damaged.string(), SQLITE_OPEN_READWRITE)
+      .execute("PRAGMA journal_mode = DELETE; PRAGMA page_size = 4096; VACUUM");
+  const std::string small = whole_file(damaged);
+  write_bytes(damaged, std::string(100, '\0') + small.substr(100));
+  EXPECT_EQ(recovered(), digest);
+  EXPECT_TRUE(found.header_is_damaged);
+  EXPECT_EQ(found.schema, kSchemaVersion);
+  EXPECT_EQ(found.pages, static_cast<std::int64_t>(small.size() / 4096));
+  const std::string log =
+      write_ahead_log({{.page = 3, .pages_after = 1, .bytes = small.substr(2 * 4096, 4096)}}, 4096);
+  write_bytes(damaged.string() + "-wal", log);
+  EXPECT_EQ(recovered(), digest);
+  EXPECT_EQ(found.pages, static_cast<std::int64_t>(small.size() / 4096));
 }
 
 TEST_F(RecoverTest, AScoreThatAnotherProgramChangedIsLeftOut) {

@@ -5,11 +5,17 @@
 
 #include <bit>
 #include <cmath>
+#include <condition_variable>
 #include <future>
 #include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "storage/answer.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/not_empty.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -165,17 +171,44 @@ TEST_F(StoreTest, LetsTheRaceTakeUpWhatWasComputedAheadOnlyWithTheSameBits) {
 
 TEST_F(StoreTest, RefusesNumbersThatAreNotFinite) {
   auto store = begun();
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(store->append({evaluation(nan)}), std::invalid_argument);
-  EXPECT_THROW(store->append({evaluation(-infinity)}), std::invalid_argument);
-  CandidateTotalsRow totals{.candidate = {1}, .runs = 1, .score_sum = infinity};
-  EXPECT_THROW(store->append({totals}), std::invalid_argument);
-  RaceStepRow step;
-  step.p_value = nan;
-  EXPECT_THROW(store->append({step}), std::invalid_argument);
-  store->flush();
-  EXPECT_TRUE(store->scores().empty());
+  EvaluationRow rejected = evaluation(std::numeric_limits<double>::quiet_NaN());
+  rejected.status = EvaluationStatus::Rejected;  // and has no score
+  EXPECT_NO_THROW(store->append({rejected}));
+  std::vector<Row> bad;
+  const auto with = [&bad](const auto& row, auto... fields) {
+    for (const double value :
+         {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+      const auto add = [&](auto field) {
+        auto changed = row;
+        changed.*field = value;
+        bad.emplace_back(changed);
+      };
+      (add(fields), ...);
+    }
+  };
+  with(RaceStepRow{}, &RaceStepRow::mean_best, &RaceStepRow::statistic, &RaceStepRow::p_value,
+       &RaceStepRow::kendall_w, &RaceStepRow::spearman_rho, &RaceStepRow::qvar,
+       &RaceStepRow::bound);
+  with(EliminationRow{}, &EliminationRow::rank_sum);
+  with(EliteRow{}, &EliteRow::mean);
+  with(CandidateTotalsRow{}, &CandidateTotalsRow::score_sum, &CandidateTotalsRow::score_squares);
+  with(DesignStateRow{}, &DesignStateRow::best_mean);
+  with(ConflictRow{}, &ConflictRow::kept_score, &ConflictRow::other_score);
+  with(evaluation(1), &EvaluationRow::bound);
+  EvaluationRow timed = evaluation(1);
+  timed.measured.time = std::numeric_limits<double>::infinity();
+  bad.emplace_back(timed);
+  bad.emplace_back(evaluation(-std::numeric_limits<double>::infinity()));
+  for (const Row& row : not_empty(bad)) {
+    try {
+      store->append({row});
+      ADD_FAILURE() << describe(row);
+    } catch (const std::invalid_argument& refused) {
+      EXPECT_EQ(refused.what(), "a number is not finite in " + describe(row));
+    }
+  }
+  ASSERT_TRUE(store->flush());
+  EXPECT_EQ(store->scores().size(), 1U);
 }
 
 TEST_F(StoreTest, EndsWithRowsThatItCanNeverTake) {
@@ -198,6 +231,37 @@ TEST_F(StoreTest, CountsTicketsFromOneAndTellsThemInOrderBeforeFlushReturns) {
   ASSERT_FALSE(told.empty());
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
   EXPECT_EQ(told.back(), wanted);
+}
+
+/// A thread that waits in flush(), and a large group, do not wait for more rows.
+TEST_F(StoreTest, CommitsAtOnceForAFlushAndForALargeGroup) {
+  auto store = open_store(path, campaign, {.gather = std::chrono::hours(1)});
+  std::mutex mutex;
+  std::condition_variable told;
+  std::uint64_t committed = 0;
+  store->set_listener([&](const WriterNews& news) {
+    const std::lock_guard lock(mutex);
+    committed = news.committed;
+    told.notify_all();
+  });
+  for (int i = 0; i < 2; ++i) {
+    store->append(campaign.batches.front());
+    ASSERT_TRUE(store->flush());
+  }
+  for (int i = 0; i < 1024; ++i)
+    store->append({evaluation(1)});
+  std::unique_lock lock(mutex);
+  EXPECT_TRUE(told.wait_for(lock, std::chrono::seconds(60), [&] { return committed > 2; }));
+}
+
+TEST_F(StoreTest, NumbersItsWorkersFromOneOn) {
+  auto store = begun();
+  EXPECT_EQ(store->next_worker(), 1);
+  WorkerRow worker;
+  worker.id = 4;
+  store->append({worker});
+  ASSERT_TRUE(store->flush());
+  EXPECT_EQ(store->next_worker(), 5);
 }
 
 TEST_F(StoreTest, CommitsWhatIsQueuedWhenItEndsAndLeavesOneFile) {

@@ -1,6 +1,10 @@
 #include "storage/internal/table_shape.h"
 
 #include <gtest/gtest.h>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace swarmsmith {
 namespace {
@@ -62,6 +66,48 @@ TEST(TableShape, RefusesValuesOfAnotherTypeOrNumber) {
   other = record(text("a"));
   other.rowid.reset();
   EXPECT_FALSE(table.fits(other));
+}
+
+TEST(TableShape, TakesRecordsFromBeforeColumnsWereAdded) {
+  TableShape table = shape();
+  StoredRecord known = record(text("a"));
+  for (std::size_t least = 0; least <= 5; ++least) {
+    table.least_columns = least;
+    EXPECT_EQ(table.fits(known), least <= 4) << least;
+  }
+  table.least_columns = 0;
+  known.values.clear();
+  EXPECT_FALSE(table.fits(known)) << "a record without values";
+  EXPECT_FALSE(table.fits(
+      record(text("a"), {.type = Type::Real, .real = std::numeric_limits<double>::infinity()})));
+}
+
+/// Name, tree and columns of each table, in the order of the record; "=" stands for the rowid.
+TEST(TableShape, FollowsFromTheTable) {
+  sqlite::Connection connection(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  connection.execute(
+      "CREATE TABLE keyed (a TEXT NOT NULL, k2 INTEGER, k1 TEXT, b REAL, PRIMARY KEY (k1, k2))"
+      " STRICT, WITHOUT ROWID;"
+      "CREATE TABLE named (id TEXT PRIMARY KEY, n INTEGER) STRICT;"
+      "CREATE TABLE later (note TEXT, id INTEGER PRIMARY KEY) STRICT;"
+      "CREATE VIEW v AS SELECT 1");
+  std::vector<std::string> shown;
+  for (const TableShape& table : table_shapes(connection)) {
+    std::string line = table.name + " in " + table.tree + (table.has_rowids ? " rowids:" : ":");
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      line += (static_cast<int>(i) == table.alias ? " =" : " ") + table.columns[i].name + " " +
+              table.columns[i].type + (table.columns[i].may_be_null ? " or null" : "");
+    }
+    shown.push_back(line);
+  }
+  EXPECT_EQ(shown, (std::vector<std::string>{
+                       "keyed in keyed: k1 TEXT k2 INTEGER a TEXT b REAL or null",
+                       "later in later rowids: note TEXT or null =id INTEGER",
+                       "named in named rowids: id TEXT n INTEGER or null",
+                       "source in sqlite_autoindex_source_1: name TEXT id INTEGER"}));
+  const TableShape keyed = table_shapes(connection).front();
+  EXPECT_EQ(keyed.insertion(1), "INSERT OR IGNORE INTO keyed (k1) VALUES (?)");
+  EXPECT_EQ(keyed.insertion(3), "INSERT OR IGNORE INTO keyed (k1, k2, a) VALUES (?,?,?)");
 }
 
 }  // namespace

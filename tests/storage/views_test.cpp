@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "sim/control/flavour.h"
 #include "sim/control/machine_text.h"
+#include "storage/internal/machine_parts.h"
 #include "storage/internal/sqlite.h"
 #include "tests/analysis/machines/machines_to_draw.h"
 #include "tests/storage/fixture.h"
@@ -304,6 +308,45 @@ TEST_F(MachineViewsTest, TreesHaveModulesAndNetworksHaveNone) {
           Cells{"watermelon", "stop", "1", "1"}));
   for (const std::string view : {"v_states", "v_transitions"})
     EXPECT_THAT(all("SELECT * FROM " + view), IsEmpty()) << view;
+}
+
+TEST(MachineParts, AreTheStatesThatTransitionsReachFromTheFirst) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"", " 0 "},
+      {"--nstates 2 --s0 1 --n0 1", " 0 "},
+      // A jump leaves out the state itself.
+      {"--n0x0 0", " 0 1 "},
+      {"--n0x0 1 --n1x0 0", " 0 2 "},
+      {"--n1x0 1 --n0x0 0", " 0 1 2 "},
+      {"--n1x0 0 --n0x0 0", " 0 1 "},
+      {"--n10x2 3 --n0x11 9", " 0 3 10 "},
+      {"--n0x1", " 0 1 "},
+      {"--n0x --nx0 4 --m0x0 5", " 0 "},
+      {"--n0x0 0 --n0x1 2 --n3x0 3 --n4x0 0", " 0 1 3 4 "}};
+  for (const auto& [text, states] : cases)
+    EXPECT_EQ(reached_states(text), states) << text;
+}
+
+TEST(MachineParts, AreItsModulesAndThoseInStatesThatCanBeReached) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"", "{}"},
+      {"--nstates 2 --s0 1 --s1 1 --n0 1 --n0x0 0 --c0x0 3 --p0x0 4", R"({"c3":"1 1","s1":"2 2"})"},
+      {"--s0 1 --s1 1 --s2 4 --c2x0 7 --c2x1 7", R"({"c7":"2 0","s1":"2 1","s4":"1 0"})"},
+      {"--s0 1  --s12 3", R"({"s1":"1 1","s3":"1 0"})"},
+      // Words of one letter, of a state's number alone, and of leaves of a tree.
+      {"--s 1 --c0 5 --cx0 5 --a0 2 --att0 1.5 --a01 --t0 9", "{}"},
+      {"--c00 5 --a01 2", R"({"c5":"1 1","s2":"1 0"})"},
+      {"--nroot 3 --nchildroot 1 --n1 0 --c10 5 --a11 2 --c11 5", R"({"c5":"2 2","s2":"1 1"})"},
+      {"--c10 5 --a11 2", R"({"c5":"1 0","s2":"1 0"})"}};
+  for (const auto& [text, modules] : cases)
+    EXPECT_EQ(module_counts(text), modules) << text;
+}
+
+TEST_F(MachineViewsTest, AreMadeOfFunctionsThatAQueryMayUseToo) {
+  store({});
+  EXPECT_THAT(all("SELECT reached_states('--n0x0 0'), module_counts('--s0 1'),"
+                  " reached_states(NULL), module_counts(NULL)"),
+              ElementsAre(Cells{" 0 1 ", R"({"s1":"1 1"})", "NULL", "NULL"}));
 }
 
 /// The rows that an ordinary client gets from the file's own views, sorted.

@@ -3,10 +3,17 @@
 #include <condition_variable>
 #include <fstream>
 #include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "storage/backup.h"
+#include "storage/internal/reading.h"
 #include "storage/internal/row_sums.h"
+#include "storage/internal/row_writer.h"
 #include "storage/internal/schema.h"
+#include "storage/internal/schema_check.h"
 #include "storage/internal/sqlite.h"
 #include "storage/merge.h"
 #include "storage/recover.h"
@@ -178,6 +185,48 @@ TEST_F(OfOthers, AViewInPlaceOfATableIsRefusedToReaders) {
               HasSubstr("table event is not as Swarmsmith made it"));
 }
 
+TEST_F(OfOthers, TablesMayHaveMoreColumnsAndNotFewer) {
+  make_store();
+  const fs::path whole = folder / "whole.db";
+  fs::copy_file(path, whole);
+  const std::pair<const char*, const char*> changes[] = {
+      {"ALTER TABLE evaluation ADD COLUMN note TEXT", ""},
+      {"CREATE TABLE notes (text)", ""},
+      {"ALTER TABLE worker DROP COLUMN cpu",
+       "worker is not as Swarmsmith made it (column cpu"
+       " missing)"},
+      {"ALTER TABLE event RENAME COLUMN text TO words",
+       "event is not as Swarmsmith made it (column words added, column text missing)"},
+      {"DROP TABLE attempt", "attempt is not as Swarmsmith made it (it is missing, or no table)"}};
+  for (const auto& [sql, fault] : changes) {
+    fs::copy_file(whole, path, fs::copy_options::overwrite_existing);
+    change(path, std::string("PRAGMA foreign_keys = OFF; DROP VIEW v_workers; DROP VIEW v_failures;"
+                             "DROP VIEW v_attempts; ") +
+                     sql);
+    const std::string complaint = complaint_of(StoreReader::open(path));
+    if (*fault == '\0') {
+      EXPECT_EQ(complaint, "");
+      continue;
+    }
+    EXPECT_EQ(complaint, path.string() + ": the store's table " + fault +
+                             "; restore the store from a backup, or let `swarmsmith recover` make "
+                             "a new one from what can be read");
+  }
+}
+
+TEST(ListedObjects, AreTenAndTheNumberOfTheOthers) {
+  EXPECT_EQ(listed_objects({}), "");
+  EXPECT_EQ(listed_objects({"trigger a", "table b"}), "trigger a, table b");
+  const std::vector<std::string> ten(10, "view v");
+  std::string text = "view v";
+  for (int i = 1; i < 10; ++i)
+    text += ", view v";
+  EXPECT_EQ(listed_objects(ten), text);
+  std::vector<std::string> more = ten;
+  more.insert(more.end(), {"view w", "view x"});
+  EXPECT_EQ(listed_objects(more), text + " and 2 more");
+}
+
 TEST_F(OfOthers, NamesOfAnyLengthAreRefused) {
   make_store();
   change(path, "UPDATE design SET mission = printf('%.100000c', 'm')");
@@ -234,6 +283,12 @@ TEST_F(OfOthers, EachCommitSaysWhatRowsThereAre) {
                    .rows = {EvaluationRow{.key = key, .measured = {.score = 3}, .source = "real"}}};
     ASSERT_TRUE((*store)->add(again));
     expect_said("after another score in its place");
+    ASSERT_TRUE((*store)->add({.removed = {{candidate_id({1}, 1), Purpose::Race, 1}}}));
+    EXPECT_EQ(cells_of(*open_reader(path),
+                       "SELECT count(*) FROM evaluation WHERE candidate = 1 AND purpose = 0 AND"
+                       " pair = 1")[0][0],
+              "0");
+    expect_said("without a score of the race");
     Addition imported{
         .campaign =
             CampaignRow{.name = "x", .digest = "x", .deciding = "{}", .file = "", .seed = 0},
@@ -247,6 +302,90 @@ TEST_F(OfOthers, EachCommitSaysWhatRowsThereAre) {
     path = folder / name;
     expect_said(name);
   }
+}
+
+TEST_F(OfOthers, ASumIsReadFromWholeTextsOfAllTablesOrOfTheFirstOnes) {
+  make_store();
+  Connection connection(path.string(), SQLITE_OPEN_READWRITE);
+  const RowSums found = RowSums::found(connection);
+  const std::string whole =
+      sqlite::text_of(connection, "SELECT value FROM meta WHERE key = 'row_sums'");
+  const auto stored = [&](const std::string& text) {
+    sqlite::Statement(connection, "UPDATE meta SET value = ? WHERE key = 'row_sums'").run(text);
+    return RowSums::stored(connection);
+  };
+  EXPECT_EQ(stored(whole), found);
+  // "ROWS SUM" for each table: after fourteen tables the others may be missing.
+  std::vector<std::size_t> ends;
+  for (std::size_t at = whole.find(' '); at != std::string::npos; at = whole.find(' ', at + 1))
+    ends.push_back(at);
+  ASSERT_EQ(ends.size(), 2 * RowSums::kTables - 1);
+  using Table = RowSums::Table;
+  for (std::size_t tables = 1; tables < RowSums::kTables; ++tables) {
+    const auto part = stored(whole.substr(0, ends[2 * tables - 1]));
+    ASSERT_TRUE(part);
+    if (tables < 14) {
+      EXPECT_EQ(*part, RowSums()) << tables << " tables are no store's";
+      continue;
+    }
+    EXPECT_EQ(part->differences(found), "") << tables;
+    RowSums other = found;
+    other.replace(Table::RealOverride, 0, 1);
+    EXPECT_EQ(part->differences(other), "") << tables;
+    EXPECT_FALSE(part->has_other_values(Table::RealOverride, other));
+    other.replace(Table::Command, 0, 1);
+    EXPECT_EQ(part->differences(other), "command (other values)") << tables;
+    EXPECT_TRUE(part->has_other_values(Table::Command, other));
+    EXPECT_EQ(stored(whole.substr(0, ends[2 * tables])), RowSums()) << "rows without a sum";
+  }
+  for (const std::string& text : {std::string(), std::string("x"), "x" + whole,
+                                  "1" + whole.substr(ends[0], 1) + "y" + whole.substr(ends[1])})
+    EXPECT_EQ(stored(text), RowSums()) << text;
+  connection.execute("DELETE FROM meta WHERE key = 'row_sums'");
+  EXPECT_EQ(RowSums::stored(connection), std::nullopt);
+  EXPECT_EQ(changed_rows(connection), "");
+}
+
+TEST(RowSums, SayInWhichTablesTheyDiffer) {
+  using Table = RowSums::Table;
+  const RowSums none;
+  RowSums found;
+  EXPECT_EQ(none.differences(found), "");
+  found.add(Table::Elite, 7);
+  EXPECT_EQ(none.differences(found), "elite (1 row for 0)");
+  EXPECT_EQ(found.differences(none), "elite (0 rows for 1)");
+  EXPECT_FALSE(none.has_other_values(Table::Elite, found));
+  RowSums other = found;
+  other.replace(Table::Elite, 7, 8);
+  EXPECT_TRUE(found.has_other_values(Table::Elite, other));
+  EXPECT_FALSE(found.has_other_values(Table::Elite, found));
+  other.replace(Table::Elite, 8, 7);
+  EXPECT_EQ(other, found);
+  // An evaluation and its use are one thing to people.
+  other.add(Table::Used, 1);
+  EXPECT_EQ(found.differences(other), "evaluation (1 row for 0)");
+  other.add(Table::Evaluation, 5);
+  other.add(Table::Evaluation, 5);
+  other.remove(Table::Elite, 7);
+  EXPECT_EQ(found.differences(other), "evaluation (2 rows for 0), elite (0 rows for 1)");
+}
+
+TEST_F(OfOthers, RowsAreWrittenToAStoreWithoutSumsToo) {
+  open_store(path, campaign).reset();
+  Connection connection(path.string(), SQLITE_OPEN_READWRITE);
+  connection.execute("DELETE FROM meta WHERE key = 'row_sums'");
+  {
+    RowWriter writer(connection);
+    for (const auto& batch : campaign.batches) {
+      for (const Row& row : batch)
+        writer.write(row);
+    }
+    writer.write(CommandRow{
+        .number = 1, .kind = CommandKind::Pause, .design = {1}, .budget = 10, .who = "a@b"});
+    writer.write_sums();
+  }
+  EXPECT_FALSE(RowSums::stored(connection));
+  EXPECT_EQ(digest_of_store(connection), digest_after(campaign, campaign.batches));
 }
 
 TEST(RowHash, DependsOnEachLetter) {
