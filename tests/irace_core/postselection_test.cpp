@@ -68,6 +68,9 @@ TEST(Postselection, FindsWhatTryingAllSetsFinds) {
 TEST(Postselection, TakesThoseThatMissNothingWhenTheyUseUpTheBudget) {
   EXPECT_EQ(choose_for_postselection(missing({0, 3, 0, 0, 0}), 3, 1), (Positions{0, 2, 3}));
   EXPECT_EQ(choose_for_postselection(missing({0, 3, 0, 0, 0}), 7, 2), (Positions{0, 2, 3}));
+  // Two steps fit, and the first one would fit beside one of the others; with one step it is first.
+  EXPECT_EQ(choose_for_postselection(missing({1, 0, 0}), 5, 2), (Positions{1, 2}));
+  EXPECT_EQ(choose_for_postselection(missing({1, 0, 0}), 3, 2), (Positions{0}));
 }
 
 TEST(Postselection, TakesTheMostThatFitOtherwise) {
