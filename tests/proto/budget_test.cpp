@@ -225,7 +225,23 @@ TEST_F(Budgets, WhoDoesNotReadIsCutOff) {
     status = server->send(peer, frame);
   EXPECT_EQ(status, SendStatus::Full);
   EXPECT_LT(sent, 20 * kMiB);
+  EXPECT_TRUE(eventually([&] { return server->send(peer, "x") == SendStatus::Gone; }));
   EXPECT_EQ(refused("reads too slowly"), 1U);
+}
+
+TEST_F(Budgets, NothingIsOnItsWayToAPeerThatHasGone) {
+  listen({.most_unsent_to_all = kMiB});
+  std::optional<RawPeer> first(server->endpoint());
+  const RawPeer second(server->endpoint());
+  const PeerId to_first = meet(*first);
+  const PeerId to_second = meet(second);
+  const std::string frame(800'000, 'x');
+  EXPECT_EQ(server->send(to_first, frame), SendStatus::Sent);
+  EXPECT_EQ(server->send(to_second, std::string(2 * kMiB, 'x')), SendStatus::Later);
+  first.reset();
+  EXPECT_TRUE(eventually([&] { return server->send(to_first, "x") == SendStatus::Gone; }));
+  EXPECT_EQ(server->send(to_second, frame), SendStatus::Sent);
+  EXPECT_EQ(server->refusals().total(), 0U);
 }
 
 /// A peer that does not read takes a few kilobytes into its system, so that all but these are on
@@ -257,6 +273,7 @@ TEST_F(Budgets, FramesAreLongAboveOneMegabyte) {
   EXPECT_EQ(server->send(peer, frame), SendStatus::Sent);
   EXPECT_EQ(server->send(peer, frame), SendStatus::Sent) << "it has not to wait for the first";
   EXPECT_EQ(server->send(peer, frame + "x"), SendStatus::Sent);
+  EXPECT_EQ(server->send(peer, frame), SendStatus::Sent) << "nor for a long one";
   EXPECT_EQ(server->send(peer, frame + "x"), SendStatus::Later);
   // Once it has arrived, the next one may be sent.
   EXPECT_TRUE(eventually([&] {
@@ -337,6 +354,30 @@ TEST_F(Budgets, AHostHasSoManyConnections) {
     ServerSocket::Received received;
     return server->receive(received);
   }));
+}
+
+TEST(Gate, KnowsItsClientsByTheirKeys) {
+  zmq::context_t context;
+  zmq::socket_t server(context, zmq::socket_type::router);
+  Gate gate(context, server, {}, {});
+  const ListedClient node{
+      .name = "node", .role = Role::Worker, .public_key = "one", .expired = false};
+  const ListedClient old{.name = "old", .role = Role::Worker, .public_key = "two", .expired = true};
+  gate.admit({node, old});
+  EXPECT_EQ(gate.find("one"), node);
+  EXPECT_EQ(gate.find("two"), std::nullopt);
+  EXPECT_EQ(gate.find("three"), std::nullopt);
+  gate.admit({});
+  EXPECT_EQ(gate.find("one"), std::nullopt);
+  EXPECT_EQ(gate.meter_of({}), nullptr);
+  gate.count_refusal("a reason", "login1");
+  gate.count_refusal("a reason", "");
+  gate.count_refusal("another", "");
+  const Refusals refusals = gate.refusals();
+  EXPECT_THAT(refusals.counts,
+              ElementsAre(testing::Pair("a reason", 2), testing::Pair("another", 1)));
+  EXPECT_THAT(refusals.last_from, ElementsAre(testing::Pair("a reason", "login1")));
+  EXPECT_EQ(refusals.total(), 3U);
 }
 
 TEST(Gate, ForgetsTheCountOfAClosedConnection) {

@@ -12,8 +12,10 @@
 #include <csignal>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <zmq.hpp>
 
 #include "base/peer_user.h"
@@ -109,6 +111,27 @@ TEST_F(Sockets, GiveAnEmptyFrameForAMessageOfSeveral) {
   EXPECT_EQ(heard, "");
   EXPECT_TRUE(eventually([&] { return guest.receive(heard); }));
   EXPECT_EQ(heard, "three");
+}
+
+/// Even without the probe, which would not reach them.
+TEST_F(Sockets, DoNotHearPeersThatChooseTheirNames) {
+  auto bound = value_of(ServerSocket::bind("tcp://127.0.0.1:*", {.probes_newcomers = false}));
+  server = std::move(bound);
+  client->redirect(server->endpoint(), {});
+  client->connect();
+  zmq::context_t context;
+  for (const std::string& name : {std::string("name"), std::string("names")}) {
+    zmq::socket_t other(context, zmq::socket_type::dealer);
+    other.set(zmq::sockopt::linger, 0);
+    other.set(zmq::sockopt::routing_id, name);
+    other.connect(server->endpoint());
+    other.send(zmq::str_buffer("one"), zmq::send_flags::none);
+    server->wait(wakeup, std::chrono::minutes(1));  // until it is there
+    ServerSocket::Received received;
+    EXPECT_FALSE(server->receive(received)) << name;
+    client->send("two");
+    EXPECT_EQ(next_at_server(), "two");
+  }
 }
 
 TEST_F(Sockets, CarryTheLongestFramesAndNoLongerOnes) {
@@ -339,11 +362,43 @@ TEST(SocketUsers, AClientSaysThatAnotherUserListens) {
   close(other);
 }
 
+TEST(SocketUsers, AreAskedForOnLoopbackWithoutKeys) {
+  const auto asks = [](const char* endpoint, std::optional<ServerKeys> keys) {
+    return value_of(ServerSocket::bind(endpoint, {}, std::move(keys)))->asks_for_user();
+  };
+  EXPECT_EQ(asks("tcp://127.0.0.1:*", {}), kernel_names_users());
+  EXPECT_FALSE(asks("tcp://*:*", {}));
+  const ServerKeys keys{.secret_key = make_key_pair().secret_key, .clients = {}};
+  EXPECT_FALSE(asks("tcp://127.0.0.1:*", keys));
+}
+
+/// An empty frame, which can be turned off for clients that do not expect it.
+TEST(SocketUsers, NewcomersOfLoopbackAreProbed) {
+  if (!kernel_names_users()) GTEST_SKIP() << "this system does not say whose a connection is";
+  for (const bool probes : {true, false}) {
+    const auto server = value_of(ServerSocket::bind(
+        "tcp://127.0.0.1:*", {.linger = milliseconds(0), .probes_newcomers = probes}));
+    zmq::context_t context;
+    zmq::socket_t client(context, zmq::socket_type::dealer);
+    client.set(zmq::sockopt::linger, 0);
+    client.set(zmq::sockopt::rcvtimeo, 60'000);
+    client.connect(server->endpoint());
+    client.send(zmq::str_buffer("there"), zmq::send_flags::none);
+    ServerSocket::Received received;
+    ASSERT_TRUE(eventually([&] { return server->receive(received); }));
+    EXPECT_EQ(received.frame, "there");
+    EXPECT_EQ(server->send(received.peer, "back"), SendStatus::Sent);
+    zmq::message_t frame;
+    ASSERT_TRUE(client.recv(frame));
+    EXPECT_EQ(frame.to_string(), probes ? "" : "back");
+  }
+}
+
 /// Another user of this host: the kernel says who connects.
 TEST(SocketUsers, OthersAreKeptOut) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
+  if (!kernel_names_users()) GTEST_SKIP() << "this system does not say whose a connection is";
   const auto server = ServerSocket::bind("tcp://127.0.0.1:*").value();
-  if (!server->asks_for_user()) GTEST_SKIP() << "this system does not say whose a connection is";
   sockaddr_in address = {};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -396,6 +451,26 @@ TEST_F(Sockets, WakeWhenTheyAreNotified) {
   wakeup.clear();  // does not wait
 }
 
+/// A process that gets a signal looks what to do.
+TEST_F(Sockets, WakeAtASignal) {
+  struct sigaction action = {};
+  action.sa_handler = [](int) {};
+  struct sigaction before = {};
+  sigaction(SIGUSR1, &action, &before);
+  std::atomic<bool> woken = false;
+  std::thread waiting([&] {
+    server->wait(wakeup, std::chrono::minutes(10));
+    woken = true;
+  });
+  EXPECT_TRUE(eventually([&] { return woken.load(); },
+                         [&] {
+                           pthread_kill(waiting.native_handle(), SIGUSR1);
+                           std::this_thread::yield();
+                         }));
+  waiting.join();
+  sigaction(SIGUSR1, &before, nullptr);
+}
+
 class FramePipes : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -425,7 +500,7 @@ class FramePipes : public ::testing::Test {
     action.sa_handler = [](int) { ++caught; };  // without SA_RESTART
     struct sigaction before = {};
     sigaction(SIGUSR1, &action, &before);
-    EXPECT_TRUE(eventually([&] { return caught >= 60; },
+    EXPECT_TRUE(eventually([&] { return caught >= 30; },
                            [&] {
                              pthread_kill(thread.native_handle(), SIGUSR1);
                              std::this_thread::yield();

@@ -229,6 +229,8 @@ TEST(Wire, CountsEveryPart) {
   // Frames that are cut are no message: in a number, in a length, in a text.
   for (const char* cut : {"\x78\x80", "\x7a\x80", "\x7a\x7f\x01", "\x78\x01\x7a\x04\x01"})
     EXPECT_EQ(fault_of(head + cut), "protobuf");
+  // Two megabytes are said, so nothing after it has to be counted.
+  EXPECT_EQ(fault_of(head + "\x7a\xff\xff\x7f" + numbers(kMostParts + 1)), "protobuf");
 }
 
 /// As large as the limits let it be.

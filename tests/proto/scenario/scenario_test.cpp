@@ -198,7 +198,9 @@ TEST(Scenarios, RefuseTextsThatAreNoSimulation) {
   const std::string mission = "[[mission]]\nname = \"aggregation\"\n";
   EXPECT_EQ(complaint_about(mission), "simulation:1:1: a simulation needs a [profile]");
   EXPECT_THAT(complaint_about("profile = 3\n" + mission), StartsWith("simulation:1:11: `profile`"));
-  EXPECT_THAT(complaint_about(simulation_of(some_scenario()) + "more = 1\n"), HasSubstr("`more`"));
+  for (const std::string& text : {"more = 1\n" + simulation_of(some_scenario()),
+                                  simulation_of(some_scenario()) + "more = 1\n"})
+    EXPECT_THAT(complaint_about(text), HasSubstr("`more`"));
   EXPECT_THAT(complaint_about("a = " + std::string(100'000, '[')), HasSubstr("64 levels"));
   std::string many = "a = [0";
   for (int i = 0; i < 1'000'000; ++i)
