@@ -176,13 +176,13 @@ TEST_F(Pages, OfALogCountUpToTheLastWholeCommit) {
   std::string with_older = log;
   with_older.insert(kHeader + kFrame, older);
   EXPECT_EQ(letters(image_with_log(with_older)), "afff");
-  // So does each change of a frame's number, size, checksums or page, and one of the header.
+  // So does each change of a frame's number, size, salts, checksums or page.
   const auto change_in = [&](std::size_t at) {
     std::string changed = log;
     changed[at] = static_cast<char>(changed[at] ^ 1);
     return changed;
   };
-  for (const std::size_t at : {0U, 4U, 16U, 20U, 24U, 24U + 511U}) {
+  for (const std::size_t at : {0U, 4U, 8U, 15U, 16U, 20U, 24U, 24U + 511U}) {
     const std::string changed = change_in(kHeader + 3 * kFrame + at);
     EXPECT_EQ(letters(image_with_log(changed)), "cbff") << at;
   }
