@@ -451,6 +451,22 @@ TEST_F(Sockets, WakeWhenTheyAreNotified) {
   wakeup.clear();  // does not wait
 }
 
+TEST_F(Sockets, WakeWhenAFrameComesOrTheConnectionEnds) {
+  const auto before = std::chrono::steady_clock::now();
+  const auto wait = [&] { client->wait(wakeup, std::chrono::minutes(2)); };
+  client->send("there");
+  server->wait(wakeup, std::chrono::minutes(2));
+  EXPECT_EQ(next_at_server(), "there");
+  std::string frame;
+  for (int i = 0; i < 10; ++i) {
+    server->send(peer, "back");
+    EXPECT_TRUE(eventually([&] { return client->receive(frame); }, wait));
+  }
+  server.reset();
+  EXPECT_TRUE(eventually([&] { return client->lost(); }, wait));
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::minutes(1));
+}
+
 /// A process that gets a signal looks what to do.
 TEST_F(Sockets, WakeAtASignal) {
   struct sigaction action = {};

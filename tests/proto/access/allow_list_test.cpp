@@ -206,25 +206,21 @@ TEST_F(AllowListOnDisk, StaysAsItWasWhenANewOneIsFaulty) {
   EXPECT_THAT(opened.clients(), IsEmpty());
 }
 
+/// The inode and the size stay.
 TEST_F(AllowListOnDisk, IsReadAgainWhenOnlyItsTimeChanges) {
   write("format = 1\n" + text_of(node()));
+  auto time = std::filesystem::last_write_time(file);
   auto opened = value_of(AllowListFile::open(file, kNoon));
-  const auto time = std::filesystem::last_write_time(file);
-  AllowedClient other = node();
-  other.name = "edge";
-  // The same inode and size.
-  std::ofstream(file) << "format = 1\n" + text_of(other);
-  for (const auto step : {std::chrono::nanoseconds(1), std::chrono::nanoseconds(1'000'000'000)}) {
-    std::filesystem::last_write_time(file, time);
-    std::ofstream(file) << "format = 1\n" + text_of(other);
-    std::filesystem::last_write_time(file, time + step);
-    EXPECT_TRUE(opened.look(kNoon).changed);
-    EXPECT_EQ(opened.clients().front().name, other.name);
-    other.name = "node";
-    std::ofstream(file) << "format = 1\n" + text_of(other);
-    std::filesystem::last_write_time(file, time);
-    EXPECT_TRUE(opened.look(kNoon).changed);
-    other.name = "edge";
+  AllowedClient client = node();
+  for (const auto step : {std::chrono::milliseconds(1), std::chrono::milliseconds(1000)}) {
+    for (const char* name : {"edge", "node"}) {
+      client.name = name;
+      std::ofstream(file) << "format = 1\n" + text_of(client);
+      time += step;
+      std::filesystem::last_write_time(file, time);
+      EXPECT_TRUE(opened.look(kNoon).changed) << step.count();
+      EXPECT_EQ(opened.clients().front().name, name);
+    }
   }
 }
 
