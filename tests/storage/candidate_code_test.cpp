@@ -286,9 +286,10 @@ TEST(PhraseBook, ReadsCodesToTheirEndAndNothingElse) {
   EXPECT_EQ(decoded("", ""), "as it is||");
   EXPECT_EQ(decoded(R"({"1":"7"})", ""), R"(as it is|{"S0":"exploration","RWM0":7}|)");
   EXPECT_EQ(decoded("", "[4,3]"), R"(as it is||{"c":3,"a":1,"b":2})");
-  for (const char* code : {"{", "{}", R"("1":"7"})", R"({1":"7"})", R"({"1:"7"})", R"({"x":"7"})",
-                           R"({"1":"7})", R"({"1":"7",})", R"({"1":"7")", R"({"1":"7"}x)",
-                           R"({"9":"7"})", R"({"1":7})", R"(["1":"7"})", R"({"1":"7"])"})
+  for (const char* code :
+       {"{", "{}", R"("1":"7"})", R"({1":"7"})", R"({"1:"7"})", R"({"x":"7"})", R"({"1":"7})",
+        R"({"1":"7",})", R"({"1":"7")", R"({"1":"7"}x)", R"({"9":"7"})", R"({"1":7})", R"({"1"})",
+        R"({"1":"7",{"1":"7"}})", R"(["1":"7"})", R"({"1":"7"])"})
     EXPECT_EQ(decoded(code, ""), "not a code") << code;
   for (const char* code : {"[", "[]", "3]", "[3", "[3]x", "[3,]", "[x]", "[9]", "{3]", "[3}"})
     EXPECT_EQ(decoded("", code), "not a code") << code;
@@ -417,6 +418,11 @@ TEST_F(CandidateCodeTest, TextsThatNeverRepeatAreStoredAsTheyAreOnceTheBookIsFul
     ASSERT_EQ(back.parameters, row.parameters);
     ASSERT_EQ(back.machine, row.machine);
   }
+  const CandidateRow with_modules = row_of("", R"({"file":"1"})", R"({"module":1})");
+  const StoredTexts last =
+      book.encode(with_modules, [](std::int64_t, const Phrase&) { ADD_FAILURE(); });
+  EXPECT_EQ(last.modules, with_modules.modules);
+  EXPECT_FALSE(last.module_code);
   EXPECT_EQ(coded, 50'000U);
   EXPECT_EQ(made.size(), 50'000U);
 }

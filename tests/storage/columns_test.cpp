@@ -1,6 +1,8 @@
 #include "storage/internal/columns.h"
 
+#include <unistd.h>
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -120,6 +122,38 @@ TEST(MeasuredNumbers, AreInTheViewOfEvaluationsAndAreReadAgain) {
   const std::vector<StoredScore> scores = reader->scores();
   ASSERT_EQ(scores.size(), 1U);
   EXPECT_EQ(measured_fields(scores.front().measured), fields);
+}
+
+TEST(RowsOfAStore, HaveTheFieldsThatTheyAreMadeOf) {
+  sqlite::Connection memory(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  create_schema(memory);
+  EXPECT_FALSE(is_blank(memory));
+  write_campaign(memory, {.name = "n", .digest = "d", .deciding = "{}", .file = "f", .seed = 3});
+  DesignRow design{.id = {2},
+                   .mission = "m",
+                   .method = "w",
+                   .flavour = "watermelon",
+                   .repetition = 4,
+                   .seed = 5,
+                   .budget = 6};
+  write_designs(memory, {design}, 1, 10);
+  design.mission = "another";
+  write_designs(memory, {design}, 1, 10);
+  write_maker(memory);
+  std::array<char, 256> host{};
+  ASSERT_EQ(::gethostname(host.data(), host.size() - 1), 0);
+  EXPECT_EQ(sqlite::text_of(memory,
+                            "SELECT id || ' ' || name || ' ' || digest ||"
+                            " ' ' || deciding || ' ' || file || ' ' || seed || ' ' || state"
+                            " FROM campaign"),
+            "1 n d {} f 3 running");
+  EXPECT_EQ(sqlite::text_of(memory,
+                            "SELECT group_concat(id || ' ' || campaign || ' ' || mission || ' ' ||"
+                            " method || ' ' || flavour || ' ' || repetition || ' ' || seed || ' '"
+                            " || budget) FROM design"),
+            "12 1 m w watermelon 4 5 6");
+  EXPECT_EQ(sqlite::text_of(memory, "SELECT group_concat(key || '=' || value) FROM meta"),
+            std::string("host=") + host.data() + ",sqlite=" + sqlite3_libversion());
 }
 
 TEST(InsertOfColumns, NamesEachAndHasAMarkForIt) {

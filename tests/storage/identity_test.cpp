@@ -179,17 +179,20 @@ TEST_F(IdentityTest, ALogThatReplacesTheStoresStaysThere) {
   EXPECT_EQ(digest_of(path.string() + ".saved"), wanted());
 }
 
-TEST_F(IdentityTest, AStoreWhoseFolderIsDeletedIsSavedWhereTheProcessIs) {
+TEST_F(IdentityTest, AStoreWhoseFolderIsGoneIsSavedWhereTheProcessIs) {
   const fs::path elsewhere = folder / "elsewhere", home = fs::current_path();
   fs::create_directory(elsewhere);
-  fs::create_directory(folder / "store");
   path = folder / "store" / "s.db";
-  auto store = filled_store();
-  fs::remove_all(path.parent_path());
-  fs::current_path(elsewhere);
-  store.reset();
-  fs::current_path(home);
-  EXPECT_EQ(digest_of(elsewhere / "s.db.saved"), wanted());
+  for (const bool is_replaced : {false, true}) {
+    fs::create_directory(path.parent_path());
+    auto store = filled_store();
+    fs::remove_all(path.parent_path());
+    if (is_replaced) std::ofstream(path.parent_path()) << "a file";
+    fs::current_path(elsewhere);
+    store.reset();
+    fs::current_path(home);
+    EXPECT_EQ(digest_of(elsewhere / (is_replaced ? "s.db.saved-2" : "s.db.saved")), wanted());
+  }
 }
 
 TEST_F(IdentityTest, NothingIsSavedOverAnotherFile) {

@@ -64,6 +64,7 @@ TEST_P(MigrationTest, AnOldStoreIsReadAsItIs) {
   const auto reader = open_reader(path);
   EXPECT_EQ(reader->digest(), old.digest);
   EXPECT_EQ(reader->scores().size(), old.evaluations);
+  EXPECT_EQ(reader->real_runs().size(), real_runs_of(old));
   EXPECT_TRUE(reader->integrity().empty());
   EXPECT_EQ(cells_of(*reader, "PRAGMA user_version").front(), Cells{std::to_string(old.schema)});
 }

@@ -431,6 +431,7 @@ TEST_F(PageByHand, TakesCellsBetweenItsListAndItsEnd) {
   ASSERT_EQ(with_cell(longer, kPage - longer.size()), "7: 'sevenby'");
   EXPECT_EQ(with_cell(longer, kPage - longer.size() + 1), "broken 1");
   EXPECT_EQ(with_cell(std::string("\x84\x84\x84\x84", 4), kPage - 4), "broken 1") << "no number";
+  EXPECT_EQ(with_cell(std::string("\x81\x81\x81\x01", 4), kPage - 4), "broken 1") << "no rowid";
 }
 
 TEST_F(PageByHand, ListsNoMoreCellsThanItHasRoomFor) {

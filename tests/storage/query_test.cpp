@@ -274,6 +274,22 @@ TEST_F(QueryInMemory, LeavesItsConnectionAsItWas) {
   EXPECT_NO_THROW(memory.execute("ATTACH ':memory:' AS other"));
 }
 
+TEST_F(QueryInMemory, SharesItsMemoryWithAnotherAtTheSameTime) {
+  const std::int64_t before = sqlite3_hard_heap_limit64(-1);
+  sqlite::Connection second(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  std::int64_t with_one = 0, with_both = 0;
+  const auto nothing = [](const auto&) {};
+  EXPECT_TRUE(run_query(memory, "SELECT 1", {.memory = 9 << 20}, nothing, [&](const auto&) {
+    with_one = sqlite3_hard_heap_limit64(-1);
+    EXPECT_TRUE(run_query(second, "SELECT 2", {.memory = 5 << 20}, nothing,
+                          [&](const auto&) { with_both = sqlite3_hard_heap_limit64(-1); }));
+    EXPECT_EQ(sqlite3_hard_heap_limit64(-1), with_one);
+  }));
+  EXPECT_EQ(with_both - with_one, 5 << 20);
+  EXPECT_EQ(sqlite3_hard_heap_limit64(-1), before);
+  EXPECT_TRUE(query("SELECT 1", {.memory = 1})) << "a megabyte at least";
+}
+
 TEST_F(QueryInMemory, MayUseItsMemoryWhateverElseSqliteHas) {
   sqlite::Connection large(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
   large.execute("CREATE TABLE t AS SELECT zeroblob(20000000) AS a");

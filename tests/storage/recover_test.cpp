@@ -166,6 +166,31 @@ TEST_F(RecoverTest, RowsOfAPageBehindTheOthersGoToTheOneTableThatTheyFit) {
   EXPECT_EQ(losses(found), "");
 }
 
+/// Fourteen whole numbers are an evaluation with its time and bound, or a floor tag of a film.
+TEST_F(RecoverTest, RowsThatMayBeOfTwoTablesAreOfNone) {
+  const fs::path other = folder / "other.db";
+  sqlite::Connection(other.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE)
+      .execute(
+          "PRAGMA page_size = 8192; CREATE TABLE t (a, b, c, d, e, f, g, h, i, j, k, l, m, n,"
+          " PRIMARY KEY (a, b, c)) WITHOUT ROWID; INSERT INTO t VALUES"
+          " (1, 0, 77, 1, 0, 5, 6, 1, 8, 9, 1, 11, 12, 13), (1, 0, 78, 1, 0, 5, 6, 1, 8, 9, 1, 11,"
+          " 12, 13)");
+  write_bytes(damaged, bytes + whole_file(other).substr(kPage, kPage));
+  EXPECT_EQ(recovered(), digest);
+  EXPECT_EQ(found.unplaced, 2);
+  EXPECT_EQ(losses(found), "");
+}
+
+TEST_F(RecoverTest, ATreeThatLeadsBackToItselfIsFollowedOnce) {
+  const std::size_t root = root_of(damaged, "candidate");
+  std::string broken = bytes;
+  broken[root * kPage + 10] = static_cast<char>((root + 1) >> 8U);
+  broken[root * kPage + 11] = static_cast<char>((root + 1) & 0xffU);
+  write_bytes(damaged, broken);
+  EXPECT_EQ(recovered(), digest) << "the last page, to which nothing leads now, is found, too";
+  EXPECT_EQ(losses(found), "");
+}
+
 TEST_F(RecoverTest, WhatWasDeletedStaysDeleted) {
   {
     sqlite::Connection connection(damaged.string(), SQLITE_OPEN_READWRITE);
