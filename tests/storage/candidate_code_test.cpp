@@ -295,6 +295,27 @@ TEST(PhraseBook, ReadsCodesToTheirEndAndNothingElse) {
     EXPECT_EQ(decoded("", code), "not a code") << code;
 }
 
+TEST(PhraseBook, KnowsFromItsPhrasesWhichParametersHaveManyValues) {
+  sqlite::Connection memory(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  create_tables(memory, kSchemaVersion);
+  sqlite::Statement(memory, "INSERT INTO phrase VALUES (1, ?, ?, NULL)")
+      .run(std::string_view("--rwm0 "), std::string_view(R"("RWM0":)"));
+  PhraseBook book;
+  book.load(memory);
+  std::vector<std::int64_t> fresh;
+  const auto code = [&] {
+    return book
+        .encode(row_of("--rwm0 3", R"({"RWM0":3})", ""),
+                [&](std::int64_t number, const Phrase&) { fresh.push_back(number); })
+        .code;
+  };
+  EXPECT_EQ(code(), R"({"1":"3"})");
+  EXPECT_THAT(fresh, IsEmpty());
+  book.clear();
+  EXPECT_EQ(code(), R"({"1":""})") << "a small number is one of few";
+  EXPECT_THAT(fresh, ElementsAre(1));
+}
+
 /// A phrase with so many bytes of modules, and what is between it and the next one.
 struct LongPhrase {
   PhraseBook book;

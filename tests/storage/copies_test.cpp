@@ -193,6 +193,11 @@ TEST_F(MergeTest, KeepsEachCampaignsAnswerAndEveryRow) {
   EXPECT_EQ(reader->alone(2)->digest(), digest_of(b));
   EXPECT_EQ(reader->digest(), merged.digest);
   EXPECT_TRUE(reader->integrity().empty());
+  EXPECT_EQ(reader->designs().size(), 5U);
+  EXPECT_EQ(reader->commands().size(), 2U);
+  EXPECT_EQ(reader->scores().size(),
+            open_reader(a)->scores().size() + open_reader(b)->scores().size());
+  EXPECT_EQ(reader->alone(2)->scores().size(), open_reader(b)->scores().size());
   EXPECT_THROW(reader->alone(3), std::invalid_argument);
   // A table that is new in the schema must be merged, too.
   for (const Cells& table :

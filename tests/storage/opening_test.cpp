@@ -517,6 +517,25 @@ TEST_F(OpeningTest, ReadsAStoreInAFolderThatMayNotBeWritten) {
             path.string() + ": the store may not be written by this user");
 }
 
+TEST_F(OpeningTest, GivesAStoreTheModulesThatTheProgramKnows) {
+  fill_store(path, campaign);
+  const auto names = [&] {
+    sqlite::Connection connection(path.string(), SQLITE_OPEN_READONLY);
+    connection.allow_views(true);
+    return sqlite::text_of(connection,
+                           "SELECT group_concat(flavour || kind || number || name) FROM"
+                           " flavour_name");
+  };
+  const std::string wanted = names();
+  EXPECT_THAT(wanted, HasSubstr("watermelons1stop"));
+  execute(
+      "DROP VIEW flavour_name; CREATE VIEW flavour_name(flavour, kind, number, name) AS"
+      " SELECT 'mine', 's', 0, 'stop'");
+  ASSERT_EQ(names(), "mines0stop");
+  open_store(path, campaign).reset();
+  EXPECT_EQ(names(), wanted);
+}
+
 TEST_F(OpeningTest, MigratesStepByStepAfterACopy) {
   fill_store(path, campaign);
   sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);

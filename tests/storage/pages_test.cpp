@@ -313,7 +313,7 @@ TEST_F(Pages, HaveTheRecordsThatSqliteReadsThere) {
       file.execute("INSERT INTO t (id) VALUES (900000)");
       sqlite::Statement key(file, "INSERT INTO w VALUES (?,?)");
       const std::size_t step = size / 512;
-      for (std::size_t length = 0; length <= 1100 * step; length += step) {
+      for (std::size_t length = 0; length <= 1100 * step; length += length < 1100 ? 1 : step) {
         put.run(static_cast<std::int64_t>(1000 + length), 5, 0.25, std::string(length, 's'), "b");
         key.run(fmt::format("{:05}", length), std::string(length, 'v'));
       }

@@ -134,6 +134,16 @@ std::size_t root_of(const fs::path& store, const std::string& name) {
                          "SELECT rootpage - 1 FROM sqlite_schema WHERE name = '" + name + "'"));
 }
 
+TEST_F(RecoverTest, ARowThatItsPageHasLostIsBroken) {
+  const std::size_t root = root_of(damaged, "elite") * kPage;
+  ASSERT_EQ(bytes[root], 10) << "a page with rows";
+  std::string broken = bytes;
+  broken.replace(root + 8, 2, 2, '\0');  // where the first row is
+  write_bytes(damaged, broken);
+  recovered();
+  EXPECT_EQ(losses(found), "elite: 0 pages, 1 broken");
+}
+
 TEST_F(RecoverTest, PagesToWhichNoTreeLeadsHaveTheirRows) {
   const std::size_t root = root_of(damaged, "candidate") * kPage;
   ASSERT_EQ(bytes[root], 5) << "a page that leads to others";
