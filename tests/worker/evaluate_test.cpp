@@ -1,6 +1,9 @@
 #include "worker/evaluate.h"
 
 #include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "proto/scenario/scenario.h"
 #include "sim/control/machine_text.h"
@@ -94,7 +97,30 @@ TEST(Evaluate, RunsATestUnderTheProfileThatItNames) {
   }
   LeasedTask unknown = item(1);
   unknown.profile = 3;
-  EXPECT_NE((evaluator)(unknown).failure.find("profile"), std::string::npos);
+  EXPECT_EQ((evaluator)(unknown).failure, "a task for a profile that the scenario does not have");
+}
+
+/// Each campaign's own mission; one alone takes every item.
+TEST(Evaluate, PassesEachItemToItsCampaign) {
+  std::vector<WorkerScenario> scenarios = {short_aggregation(), short_aggregation()};
+  scenarios[1].campaign_digest = "e";
+  scenarios[1].missions[0].cycles = 80;
+  const auto both = value_of(make_evaluators()(to_bytes(scenarios)));
+  std::vector<std::uint64_t> digests;
+  for (std::uint32_t campaign = 0; campaign < 2; ++campaign) {
+    const auto alone = value_of(make_evaluators()(to_bytes({scenarios[campaign]})));
+    LeasedTask work = item(1);
+    work.key = pack(1, 0, 0, campaign);
+    const Result result = (both)(work);
+    const Result wanted = (alone)(work);
+    EXPECT_EQ(result.failure, "");
+    EXPECT_EQ(measured_fields(result.measured), measured_fields(wanted.measured));
+    digests.push_back(result.measured.state_digest);
+  }
+  EXPECT_NE(digests[0], digests[1]);
+  LeasedTask unknown = item(1);
+  unknown.key = pack(1, 0, 0, 2);
+  EXPECT_EQ((both)(unknown).failure, "no such campaign in the scenario");
 }
 
 TEST(Evaluate, FailsWithASentence) {
@@ -108,8 +134,12 @@ TEST(Evaluate, FailsWithASentence) {
     of_method.method = number;
     LeasedTask of_profile = item(1);
     of_profile.profile = number;
-    for (const LeasedTask& strange : {of_mission, of_method, of_profile})
-      EXPECT_NE((evaluator)(strange).failure.find("the scenario does not have"), std::string::npos);
+    for (const LeasedTask& strange : {of_mission, of_method}) {
+      EXPECT_EQ((evaluator)(strange).failure,
+                "a task for a mission or method that the scenario does not have");
+    }
+    EXPECT_EQ((evaluator)(of_profile).failure,
+              "a task for a profile that the scenario does not have");
   }
 }
 
@@ -119,8 +149,12 @@ TEST(Evaluate, RefusesScenariosThatItCannotRun) {
   scenario.methods = {{.flavour = "vinegar"}};
   EXPECT_FALSE(make_evaluators()(to_bytes({scenario})));
   scenario = short_aggregation();
-  scenario.engine_version = kEngineVersion + 1;
-  EXPECT_FALSE(make_evaluators()(to_bytes({scenario})));
+  for (const int other : {-1, 1}) {
+    scenario.engine_version = kEngineVersion + other;
+    EXPECT_EQ(why_not(make_evaluators()(to_bytes({scenario}))).message,
+              "the campaign needs version " + std::to_string(kEngineVersion + other) +
+                  " of the simulator, this program has version " + std::to_string(kEngineVersion));
+  }
 }
 
 TEST(Evaluate, TheSelfTestRuns) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "coordinator/design/command_log.h"
 #include "tests/coordinator/design/idle_pool.h"
 #include "tests/support/checks.h"
 #include "tests/support/long_runs.h"
@@ -120,7 +121,9 @@ TEST(Commands, AreRefusedWithWhatCanBeDone) {
   EXPECT_THAT(refusal(cancel(1, 7)), HasSubstr("d7: the campaign has no such design; it has d1"));
   EXPECT_THAT(refusal({.number = 1, .kind = CommandKind::Pause, .design = {1}}),
               HasSubstr("nothing else"));
-  EXPECT_THAT(refusal(extend(1, 0)), HasSubstr("experiments, not 0"));
+  EXPECT_THAT(refusal(extend(1, 0)), HasSubstr("1 to 100000000 experiments, not 0"));
+  EXPECT_THAT(refusal(extend(1, 100'000'001)), HasSubstr("experiments, not 100000001"));
+  EXPECT_TRUE(check_command(one_design().front(), {}, extend(1, 100'000'000)));
   do {
     for (const Task& task : runner.take_tasks())
       runner.tell(honest(task));

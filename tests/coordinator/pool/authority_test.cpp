@@ -148,7 +148,8 @@ TEST_F(Authority, AdoptsOnlyWhatWasGiven) {
   claimed.incarnation = 1;
   claimed.local = true;
   claimed.same_scenario = true;
-  claimed.holds = {{key(1), 1, 0}, {key(2), 1, 12345}};
+  const std::uint64_t others = scheduler.signer().sign(task_of(2), 1, "another principal");
+  claimed.holds = {{key(1), 1, 0}, {key(2), 1, 12345}, {key(2), 1, others}};
   scheduler.on_hello(9, claimed, now);
   move();
   EXPECT_EQ(scheduler.leases().leased(), 0U);
@@ -273,10 +274,13 @@ TEST_F(Authority, RemembersWhatWasMadeAgain) {
   hello(1);
   give(1, 1, 2);
   answer(1, 1, 3), answer(1, 2, 4);
-  rule_score(1, 3);
+  rule({.key = key(1), .measured = {.score = 3, .state_digest = 5, .wall_us = 7'654'321}});
   const auto ended = all<AttemptEnded>();
   ASSERT_EQ(ended.size(), 1U);
   EXPECT_EQ(ended[0].row.outcome, AttemptOutcome::Audited);
+  EXPECT_EQ(ended[0].row.held_ms, 7654);
+  EXPECT_EQ(ended[0].row.worker, 0);
+  EXPECT_EQ(ended[0].row.attempt, 1);
   EXPECT_EQ(pack(ended[0].row.key, 0), key(1));
 }
 

@@ -3,6 +3,7 @@
 #include "coordinator/service/coordinator.h"
 #include "proto/wire.h"
 #include "proto/wire.pb.h"
+#include "storage/rows.h"
 #include "tests/coordinator/synthetic_campaign.h"
 #include "tests/support/checks.h"
 #include "tests/support/flat_campaign.h"
@@ -68,6 +69,18 @@ TEST(Budget, ALargeScenarioIsSentAllTheSame) {
   EXPECT_TRUE(budgets.may_be_sent(1, 30U << 20U, at(0)));
   EXPECT_FALSE(budgets.may_be_sent(2, 30U << 20U, at(0)));
   EXPECT_TRUE(budgets.may_be_sent(2, 30U << 20U, at(1)));
+}
+
+TEST(Budget, EachTextOfAWorkersRowCountsAtLeastItsLength) {
+  const std::size_t without = bytes_of(WorkerRow{});
+  for (std::string WorkerRow::*text :
+       {&WorkerRow::identity, &WorkerRow::host, &WorkerRow::build, &WorkerRow::job, &WorkerRow::cpu,
+        &WorkerRow::client, &WorkerRow::principal}) {
+    WorkerRow row;
+    row.*text = std::string(40, 'x');
+    EXPECT_GE(bytes_of(row), without + 40);
+    EXPECT_LE(bytes_of(row), without + 2 * 40);
+  }
 }
 
 constexpr std::int64_t kPrograms = 500;

@@ -110,6 +110,21 @@ TEST_F(IdleSlots, CountTheSlotThatStillRunsTheOtherCopy) {
   EXPECT_EQ(given[1], (Candidates{1, 3}));
 }
 
+TEST_F(IdleSlots, ReportTheTasksBehindOneThatIsNotNeeded) {
+  hello(1, 2);
+  hello(2);
+  credit(1, 2);
+  want(1, 2);
+  credit(2, 2);
+  pass(milliseconds(101));
+  answer(2, 1, 2.5, "", 2);
+  ASSERT_NE(record(2), nullptr);
+  ASSERT_TRUE(record(2)->lease);
+  now += milliseconds(1);
+  beat(1, {{key(1), 102}, {key(2), 102}});
+  EXPECT_EQ(record(2)->lease->renewed, now);
+}
+
 TEST_F(IdleSlots, DoNotBlameATaskForOneOfItsCopies) {
   make_straggler();
   answer(2, 1, 0, "not a number", 2);

@@ -38,7 +38,17 @@ TEST(Principals, ForgetThoseOfWhomNothingIsKnown) {
   principals.at("a");
   principals.at("b").standing(1).unchecked_of(0) = 1;
   principals.at("c").quarantined = true;
+  principals.at("process that left").standing(1);
+  principals.at("worker").workers = {4};
+  principals.at("worker").standing(4).taken = 3;
+  principals.at("worker").standing(5).taken = 3;
+  principals.at("on trial").standing(1).on_trial = 1;
   principals.forget_idle();
+  EXPECT_EQ(principals.find("process that left"), nullptr);
+  ASSERT_NE(principals.find("worker"), nullptr);
+  EXPECT_EQ(principals.find("worker")->standings.size(), 1U);
+  EXPECT_TRUE(principals.find("worker")->standings.contains(4));
+  EXPECT_NE(principals.find("on trial"), nullptr);
   EXPECT_EQ(principals.find("a"), nullptr);
   EXPECT_NE(principals.find("b"), nullptr);
   EXPECT_NE(principals.find("c"), nullptr);

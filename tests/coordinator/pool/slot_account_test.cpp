@@ -55,7 +55,33 @@ TEST_F(SlotAccounts, WhatIsLeasedAndNotEvaluatedIsTheNetworks) {
   expect_sum();
   second(1, 4000, 3500);  // it did not idle at all
   EXPECT_NEAR(idle(IdleCause::Network), 0.5, 1e-9);
+  second(1, 6000, 4200);
+  EXPECT_NEAR(idle(IdleCause::Network), 0.5 + 1.3, 1e-9);
+  EXPECT_NEAR(account.since_start().busy, 4.2, 1e-9);
   expect_sum();
+}
+
+TEST_F(SlotAccounts, EachWorkerHasItsOwnWhateverTheOthersDo) {
+  hello(1, 2);
+  hello(2, 3);
+  account.sample(scheduler, Holding::No, now);
+  second(2, 3000, 0, 0);
+  EXPECT_NEAR(idle(IdleCause::StartUp), 3.0, 1e-9);
+  lose(1);
+  second(2, 6000, 0, 0);
+  EXPECT_NEAR(idle(IdleCause::StartUp), 6.0, 1e-9);
+  expect_sum();
+}
+
+TEST_F(SlotAccounts, AReportOfLessTimeOrOfNoneChangesNothing) {
+  hello(1, 2);
+  account.sample(scheduler, Holding::No, now);
+  second(1, 2000, 500);
+  second(1, 1000, 900);
+  beat(1);
+  const WorkerEntry& worker = scheduler.workers().all().at(1);
+  EXPECT_EQ(worker.slot_us, 2'000'000);
+  EXPECT_EQ(worker.busy_us, 500'000);
 }
 
 TEST_F(SlotAccounts, AWorkerThatAsksForLessThanItsSlotsHasNoCredit) {
@@ -174,8 +200,13 @@ TEST_F(SlotAccounts, TheLastMinuteForgetsWhatWasBefore) {
   const SlotTimes minute = account.last_minute();
   EXPECT_NEAR(minute.slots, 60, 1.5);
   EXPECT_NEAR(minute.busy, minute.slots, 1e-6);
+  EXPECT_NEAR(minute.idle_total(), 0, 1e-6);
   EXPECT_NEAR(account.since_start().idle_total(), 30, 1e-6);
   EXPECT_NEAR(account.rate_of(1).busy, 1, 1e-6);
+  const std::int64_t busy_ms = slot_ms - idle_ms;
+  for (int i = 1; i <= 10; ++i)
+    second(1, slot_ms + 1000 * i, busy_ms + 250 * i);
+  EXPECT_NEAR(account.rate_of(1).busy, 0.25, 1e-6);
 }
 
 }  // namespace
