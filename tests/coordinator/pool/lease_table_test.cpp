@@ -1,12 +1,68 @@
 #include "coordinator/pool/lease_table.h"
 
 #include <gtest/gtest.h>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "base/rng.h"
+#include "coordinator/pool/worker_loads.h"
 
 namespace swarmsmith {
 namespace {
 
 Task task(std::int64_t candidate) {
   return {{}, {{candidate}, Purpose::Race, 1}};
+}
+
+/// Room and idle slots of all workers are sums that each change keeps up to date.
+TEST(WorkerLoads, SumsAreThoseOfTheWorkersAfterEachChange) {
+  constexpr std::int64_t kWorkers = 4;
+  WorkerLoads loads;
+  Rng rng(5);
+  std::map<WorkerNumber, std::vector<WorkerLoads::Place>> places;
+  for (int step = 0; step < 2000; ++step) {
+    const WorkerNumber worker = rng.uniform_int(1, kWorkers);
+    const auto key = static_cast<PackedKey>(rng.uniform_int(1, 8));
+    std::vector<WorkerLoads::Place>& held = places[worker];
+    switch (rng.uniform_int(0, 4)) {
+      case 0: {
+        const auto slots = static_cast<std::size_t>(rng.uniform_int(0, 4));
+        const auto credit = static_cast<std::size_t>(rng.uniform_int(0, 8));
+        loads.set_capacity(worker, slots, slots == 0 ? 0 : credit);  // it left with its credit
+        break;
+      }
+      case 1:
+        held.push_back(loads.lease(worker, key, false));
+        break;
+      case 2:
+        if (held.empty()) break;
+        loads.end(worker, held.back(), false);
+        held.pop_back();
+        break;
+      case 3:
+        loads.linger(worker, key, TimePoint(Duration(step)));
+        break;
+      default:
+        loads.settle_older(worker, TimePoint(Duration(step - 20)));
+    }
+    const bool lingers = loads.of(worker).lingering.contains(key);
+    EXPECT_EQ(loads.renew_lingering(worker, key, TimePoint(Duration(step))), lingers);
+    std::size_t room = 0;
+    std::size_t idle = 0;
+    std::set<WorkerNumber> with_room;
+    std::set<WorkerNumber> with_idle;
+    for (WorkerNumber each = 1; each <= kWorkers; ++each) {
+      room += loads.of(each).room();
+      idle += loads.of(each).idle();
+      if (loads.of(each).room() > 0) with_room.insert(each);
+      if (loads.of(each).idle() > 0) with_idle.insert(each);
+    }
+    ASSERT_EQ(loads.room(), room);
+    ASSERT_EQ(loads.idle(), idle);
+    ASSERT_EQ(loads.with_room(), with_room);
+    ASSERT_EQ(loads.with_idle(), with_idle);
+  }
 }
 
 class Leases : public ::testing::Test {
