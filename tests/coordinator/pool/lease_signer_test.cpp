@@ -52,8 +52,9 @@ TEST(LeaseSigner, TellsTasksOfOneKeyApart) {
   }
 }
 
-/// The secret is kept in the store, so workers may return leases of a coordinator's earlier release.
-/// The numbers are from SipHash-2-4 in Python, which gives the value in its paper's appendix.
+/// The secret is kept in the store, so workers may return leases of a coordinator's earlier
+/// release. The numbers are from SipHash-2-4 in Python, which gives the value in its paper's
+/// appendix.
 TEST(LeaseSigner, GivesTheSameSignaturesInEachRelease) {
   const LeaseSigner signer(lease_secret_of("secret", 1));
   const Task task{
