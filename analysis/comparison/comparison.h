@@ -85,9 +85,6 @@ struct Comparison {
   std::vector<std::string> seeds;     ///< texts about sources whose designs ran on different seeds
 };
 
-/// The significance level of all tests.
-inline constexpr double kTestLevel = 0.05;
-
 /// The number of tests that Holm's correction counts: those that have a p.
 std::size_t corrected_tests(const std::vector<ComparedPair>& pairs);
 

@@ -9,11 +9,10 @@
 
 #include "analysis/records/names.h"
 #include "analysis/statistics/effect_size.h"
+#include "analysis/statistics/wilcoxon.h"
 
 namespace swarmsmith {
 namespace {
-
-constexpr double kPrintedLevel = 0.05;
 
 std::string latex_escaped(std::string_view text) {
   std::string escaped;
@@ -78,9 +77,9 @@ class Writer {
 std::string printed_p(double p) {
   constexpr double kLeastShown = 0.0001;
   if (p < kLeastShown) return "< 0.0001";
-  const std::string level = fmt::format("{:.2g}", kPrintedLevel);
+  const std::string level = fmt::format("{:.2g}", kTestLevel);
   std::string printed = fmt::format("{:.2g}", p);
-  for (int digits = 3; p < kPrintedLevel && printed == level; ++digits)
+  for (int digits = 3; p < kTestLevel && printed == level; ++digits)
     printed = fmt::format("{:.{}g}", p, digits);
   return printed;
 }
@@ -116,7 +115,7 @@ bool is_first_higher(const ComparedPair& pair) {
 /// The result of the test: a difference, or that none was found.
 std::string finding_of(const ComparedPair& pair, std::string_view units) {
   const auto p = pair.p_holm ? pair.p_holm : pair.test.p_value;
-  const bool differ = p && *p < kPrintedLevel;
+  const bool differ = p && *p < kTestLevel;
   const char* more = is_first_higher(pair) ? "higher" : "lower";
   if (pair.paired) {
     const std::string first = place_of(pair.first);

@@ -56,15 +56,6 @@ std::string change_between(const Values& before, const Values& after) {
   return text;
 }
 
-/// Reads this from the campaign's normalised file.
-Expected<bool> is_ablation(StoreReader& store) {
-  const auto all = campaigns(store);
-  if (!all) return Unexpected(all.error());
-  return std::ranges::any_of(*all, [](const CampaignRecord& campaign) {
-    return campaign.file.find("\nablation = \"") != std::string::npos;
-  });
-}
-
 /// Each iteration is a step. The configuration that it adds to the way is the elite that was
 /// created in the same iteration (irace_core/ablation.h).
 Expected<std::vector<WayPoint>> read_way(StoreReader& store, const DesignRecord& design) {
@@ -187,7 +178,7 @@ std::string draw(const std::vector<WayPoint>& way, const std::string& title,
 }  // namespace
 
 Expected<Figure> ablation_figure(StoreReader& store, const FigureOptions& options) {
-  const auto is_one = is_ablation(store);
+  const auto is_one = has_key(store, "ablation");
   if (!is_one) return Unexpected(is_one.error());
   if (!*is_one) {
     return unexpected(

@@ -114,7 +114,7 @@ std::vector<std::string> tests_of(const GapGroup& group, const std::vector<std::
     const double change = mean_of(other) - mean_of(first);
     std::string found = test.p_value ? fmt::format("Wilcoxon p = {:.3g}", *test.p_value)
                                      : std::string("no differences to test");
-    if (test.p_value && test.least_p >= 0.05) found = "too few for a test";
+    if (test.p_value && test.least_p >= kTestLevel) found = "too few for a test";
     lines.push_back(fmt::format(
         "{}, {}: {} to {}, mean change {}, {}, n = {}", as_words(group.mission), group.method,
         sources[0], sources[s],

@@ -83,12 +83,9 @@ void rank_cells(std::span<RaceCell> step) {
 /// If a targetEvaluator gives the costs, the scores of the runs are without meaning: they are
 /// replaced, and so are their ranks. The last of its answers on a run counts.
 Expected<void> judge_cells(StoreReader& store, DesignId design, std::vector<RaceCell>& cells) {
-  const auto all = campaigns(store);
-  if (!all) return Unexpected(all.error());
-  const bool has_evaluator = std::ranges::any_of(*all, [](const CampaignRecord& campaign) {
-    return campaign.file.find("\nevaluator = \"") != std::string::npos;
-  });
-  if (!has_evaluator) return {};
+  const auto has_evaluator = has_key(store, "evaluator");
+  if (!has_evaluator) return Unexpected(has_evaluator.error());
+  if (!*has_evaluator) return {};
   std::map<std::pair<CandidateId, std::int64_t>, std::optional<double>> scores;
   const auto end = store.query(
       fmt::format("SELECT r.candidate, r.pair, v.score FROM v_evaluations AS v"
@@ -129,6 +126,14 @@ Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
                               .digest = row[3].text,
                               .file = row[4].text};
       });
+}
+
+Expected<bool> has_key(StoreReader& store, std::string_view key) {
+  const auto all = campaigns(store);
+  if (!all) return Unexpected(all.error());
+  return std::ranges::any_of(*all, [&](const CampaignRecord& campaign) {
+    return campaign.file.find(fmt::format("\n{} = \"", key)) != std::string::npos;
+  });
 }
 
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter) {

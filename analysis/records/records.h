@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/expected.h"
@@ -175,6 +176,8 @@ struct RecordFilter {
 /// Errors: BadInput with SQLite's message if a view is missing (a store with an older schema) or
 /// the time limit of a query was too short.
 Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store);
+/// Whether the normalised file of a campaign gives this key a text.
+Expected<bool> has_key(StoreReader& store, std::string_view key);
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter);
 Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilter& filter);
 /// NotFound if the store has no such candidate.

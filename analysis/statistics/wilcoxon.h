@@ -7,6 +7,9 @@
 
 namespace swarmsmith {
 
+/// The significance level of all tests: a smaller p is a difference.
+inline constexpr double kTestLevel = 0.05;
+
 /// The alternative about the first sample compared with the second one: it differs, tends to be
 /// larger, tends to be smaller.
 enum class Alternative { TwoSided, Greater, Less };
@@ -23,7 +26,7 @@ struct WilcoxonTest {
   bool exact = false;
   std::size_t zeros = 0;  ///< number of dropped zero differences; only for signed-rank tests
   /// The smallest two-sided p that the exact test could give for this number of values. No
-  /// difference can be found unless it is below 0.05.
+  /// difference can be found unless it is below `kTestLevel`.
   double least_p = 1;
 };
 

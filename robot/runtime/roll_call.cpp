@@ -7,6 +7,7 @@
 
 #include "base/assert.h"
 #include "robot/runtime/robot_kind.h"
+#include "robot/transport/messages.h"
 #include "sim/files/robot_file.h"
 
 namespace swarmsmith {
@@ -16,8 +17,6 @@ constexpr Duration kEchoPatience = std::chrono::milliseconds(250);
 // Treads stop after 300 ms without one (docs/robot-runtime.md, "When it stops").
 constexpr Duration kAliveEvery = std::chrono::milliseconds(100);
 constexpr Duration kStopEvery = std::chrono::milliseconds(200);
-// A node sends its state twice a second.
-constexpr Duration kMostSilence = std::chrono::seconds(1);
 constexpr Duration kArmPatience = std::chrono::seconds(1);
 constexpr Duration kRunningPatience = std::chrono::milliseconds(500);
 constexpr Duration kStopPatience = std::chrono::seconds(2);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -180,6 +181,9 @@ struct LedsMessage {
 
   static constexpr std::tuple kNumbers{&LedsMessage::colors};
 };
+
+/// A node sends its state twice a second; after this silence it counts as gone.
+inline constexpr Duration kMostSilence = std::chrono::seconds(1);
 
 /// A node's state: a JSON object, defined in robot/runtime.
 struct StateMessage {

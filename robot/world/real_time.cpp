@@ -7,15 +7,13 @@
 #include <utility>
 
 #include "base/overloaded.h"
+#include "robot/transport/messages.h"
 #include "robot/world/sensor_messages.h"
 #include "robot/world/simulated_driver.h"
 
 namespace swarmsmith {
 
 namespace {
-
-/// A node sends its state twice a second. The operator stops the others after the same silence.
-constexpr Duration kMostSilence = std::chrono::seconds(1);
 
 /// Ends the run from inside the engine: with an error, or without one because the nodes' run
 /// begins.

@@ -492,7 +492,7 @@ TEST_F(OpeningTest, LooksAtEveryPageAfterAnUncleanEnd) {
 
 TEST_F(OpeningTest, ReadsAStoreInAFolderThatMayNotBeWritten) {
   if (::geteuid() != 0) GTEST_SKIP() << "needs root, to become another user";
-  path = folder / "A z-09_.é%41?#&=+.db";  // some of which mean something in a URI
+  path = folder / "A z-09_.é%41?#&=+.db";  // a URI uses some of these signs
   fill_store(path, campaign);
   const std::string wanted = digest_of(path);
   std::filesystem::remove(path.string() + "-wal");

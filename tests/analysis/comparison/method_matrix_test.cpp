@@ -25,8 +25,8 @@ Table different(std::size_t count, const std::vector<std::pair<std::size_t, std:
   return table;
 }
 
-/// The letters by definition: one for each set of items of which no two differ, and to which no
-/// item can be added. In the order of the sets' items.
+/// The letters by definition. A set of items has a letter if no two of them differ, and if each
+/// further item would differ from one of them. The sets are sorted by their items.
 std::vector<std::string> letters_by_definition(const Table& table) {
   using Items = std::vector<std::size_t>;
   const auto fits = [&](const Items& items, std::size_t more) {
@@ -184,9 +184,12 @@ TEST(MethodMatrix, OfOneMissionHasRanksAndAPOfTheLevelIsNoDifference) {
   // All 39 values are above the single one: R: wilcox.test(2:40, 1)$p.value is 0.05.
   std::vector<double> many(39);
   std::iota(many.begin(), many.end(), 2.0);
-  const auto matrix =
-      method_matrices(compare(records_of(two_methods({1}, many)), {.by = CompareBy::Method}))
-          .front();
+  const Comparison comparison =
+      compare(records_of(two_methods({1}, many)), {.by = CompareBy::Method});
+  EXPECT_THAT(matrix_notes(comparison),
+              Contains(HasSubstr("too few values: even the clearest difference would have a p of "
+                                 "0.05; a shared letter means nothing there")));
+  const MethodMatrix matrix = method_matrices(comparison).front();
   ASSERT_EQ(matrix.rows.size(), 2U);
   EXPECT_EQ(matrix.rows[0].method, "second");
   EXPECT_EQ(matrix.rows[0].mean_rank, 1);

@@ -24,6 +24,21 @@ class ProgramSchedulers : public Schedulers {
       pass(seconds(1));
     }
   }
+  /// Of two campaigns the first one stops when an evaluation fails.
+  void use_two_campaigns() {
+    options.campaigns.resize(2);
+    options.campaigns[0].stop_on_failure = true;
+    scheduler = Scheduler(options);
+  }
+  /// The first campaign's tasks are forgotten, and the second one has tasks 3 and 4.
+  void go_on_with_the_second() {
+    scheduler.forget(0);
+    std::vector<Task> others{task_of(3), task_of(4)};
+    for (Task& task : others)
+      task.campaign = 1;
+    scheduler.add(std::move(others));
+    move();
+  }
   static Result failed(std::int64_t candidate, std::int64_t attempt = 1) {
     return {.key = key(candidate),
             .attempt = attempt,
@@ -135,9 +150,7 @@ TEST_F(ProgramSchedulers, StopWithTheWholeStoryWhereTheyMustNotReject) {
 /// Two campaigns share a worker that has only reported on the first one's tasks when that one
 /// stops.
 TEST_F(ProgramSchedulers, GiveTheSlotsOfAStoppedCampaignToAnotherAtOnce) {
-  options.campaigns.resize(2);
-  options.campaigns[0].stop_on_failure = true;
-  scheduler = Scheduler(options);
+  use_two_campaigns();
   hello(1, 2);
   credit(1, 4);
   want(1, 2);
@@ -147,20 +160,13 @@ TEST_F(ProgramSchedulers, GiveTheSlotsOfAStoppedCampaignToAnotherAtOnce) {
   scheduler.on_results({1, 1, 0}, both, now);
   take();
   ASSERT_EQ(all<StopCampaign>().size(), 1U);
-  scheduler.forget(0);
-  std::vector<Task> others{task_of(3), task_of(4)};
-  for (Task& task : others)
-    task.campaign = 1;
-  scheduler.add(std::move(others));
-  move();
+  go_on_with_the_second();
   EXPECT_EQ(given[1], (std::vector<std::int64_t>{1, 2, 3, 4}));
 }
 
 /// The second worker's program still runs.
 TEST_F(ProgramSchedulers, KeepTheSlotsOfAStoppedCampaignWhoseProgramsRun) {
-  options.campaigns.resize(2);
-  options.campaigns[0].stop_on_failure = true;
-  scheduler = Scheduler(options);
+  use_two_campaigns();
   hello(1, 1);
   hello(2, 1);
   credit(1, 4);
@@ -168,12 +174,7 @@ TEST_F(ProgramSchedulers, KeepTheSlotsOfAStoppedCampaignWhoseProgramsRun) {
   want(1, 2);
   ASSERT_EQ(given[2].size(), 1U);
   answer(1, failed(given[1].front()));
-  scheduler.forget(0);
-  std::vector<Task> others{task_of(3), task_of(4)};
-  for (Task& task : others)
-    task.campaign = 1;
-  scheduler.add(std::move(others));
-  move();
+  go_on_with_the_second();
   EXPECT_EQ(given[1].size(), 2U);
   EXPECT_EQ(given[2].size(), 1U);
 }
