@@ -137,7 +137,8 @@ Expected<Figure> race_figure(StoreReader& store, const FigureOptions& options) {
                 .width_mm = options.width_mm};
   std::string_view remark;
   if (race->iteration.postselection) remark = " (postselection)";
-  if (!race->has_ended()) remark = " (still running)";
+  if (!race->has_ended())
+    remark = race->design.state == "stopped" ? " (stopped)" : " (still running)";
   plot.details.push_back(fmt::format("Race of {}, iteration {}{}", to_string(race->design.design),
                                      race->iteration.iteration, remark));
   // A time budget has no number of experiments.

@@ -22,7 +22,8 @@ namespace {
 using Files = std::vector<SupplementFile>;
 
 /// Kinds that show one design; the other kinds compare designs.
-constexpr std::array<std::string_view, 3> kOfOneDesign = {"race", "sampling", "parallel"};
+constexpr std::array<std::string_view, 4> kOfOneDesign = {"race", "sampling", "parallel",
+                                                          "importance"};
 constexpr std::string_view kMachineKind = "machine";
 
 /// "d3-aggregation-watermelon-1"; characters that are unsuitable for file names become "_".

@@ -26,6 +26,8 @@ struct CompareArguments {
   bool csv = false;
   bool matrix = false;
   ComparisonOptions options;
+
+  bool is_matrix() const { return matrix || table == "matrix"; }
 };
 
 CompareBy by_of(const std::string& word) {
@@ -123,8 +125,7 @@ std::string matrix_json(const Comparison& comparison) {
 /// method.
 Expected<Comparison> compared_by(StoreReader& store, const CompareArguments& arguments) {
   ComparisonOptions options = arguments.options;
-  const bool is_matrix = arguments.matrix || arguments.table == "matrix";
-  options.by = is_matrix ? CompareBy::Method : by_of(arguments.by);
+  options.by = arguments.is_matrix() ? CompareBy::Method : by_of(arguments.by);
   options.choice = score_choice(arguments.purpose, arguments.per);
   auto comparison = compare(store, options);
   if (!comparison || !arguments.by.empty() || options.by != CompareBy::Source) return comparison;
@@ -157,8 +158,8 @@ ExitCode run_compare(CompareArguments& arguments, Output& output) {
   if (arguments.matrix && (arguments.csv || !arguments.paper.empty()))
     return fail(output, ExitCode::Usage,
                 "--matrix is for people and --json; as a table it is --csv --table matrix");
-  if (arguments.matrix && !arguments.by.empty() && arguments.by != "method")
-    return fail(output, ExitCode::Usage, "--matrix compares methods: leave --by out");
+  if (arguments.is_matrix() && !arguments.by.empty() && arguments.by != "method")
+    return fail(output, ExitCode::Usage, "a matrix compares methods: leave --by out");
   const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const auto comparison = compared(**store, arguments);

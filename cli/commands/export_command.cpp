@@ -28,7 +28,7 @@ struct ExportArguments {
   std::string mission;
   std::string width;
   std::optional<std::int64_t> seed;
-  std::string irace_version = "4";
+  std::string irace_version;  ///< empty: not given
 };
 
 /// The number after the letter of an id.
@@ -142,9 +142,18 @@ std::optional<Error> misplaced_option(const ExportArguments& arguments) {
   }
   const bool sized = is_picture(arguments.format) && arguments.format != "dot";
   if (!arguments.width.empty() && !sized) return Error{ErrorKind::BadInput, "it" + with, "--width"};
-  if (arguments.format == "rdata" && (!arguments.candidate.empty() || arguments.what != "best")) {
-    return Error{ErrorKind::BadInput, "it" + with + ": the log has all of a design",
+  const bool is_design = arguments.format == "rdata" || arguments.format == "irace";
+  if (is_design && (!arguments.candidate.empty() || arguments.what != "best")) {
+    return Error{ErrorKind::BadInput,
+                 "it" + with + ": " + (arguments.format == "rdata" ? "the log" : "the folder") +
+                     " has all of a design",
                  arguments.candidate.empty() ? "--what" : "--candidate"};
+  }
+  if (!arguments.irace_version.empty() && arguments.format != "irace")
+    return Error{ErrorKind::BadInput, "it" + with, "--irace"};
+  if (asks_for_table(arguments) && arguments.format != "fsm-config") {
+    return Error{ErrorKind::BadInput,
+                 "--what " + arguments.what + " writes a table: leave --format out", "--format"};
   }
   if (!arguments.mission.empty() && !asks_for_table(arguments)) {
     return Error{ErrorKind::BadInput, "it has no effect with --what " + arguments.what,
@@ -253,8 +262,11 @@ ExitCode run_export(const ExportArguments& arguments, Output& output) {
   if (arguments.format == "irace") {
     const auto source = arguments.store.path();
     if (!source) return fail(output, ExitCode::Usage, source.error());
-    return export_irace(*source, {.design = arguments.design, .version = arguments.irace_version},
-                        arguments.file, output);
+    return export_irace(
+        *source,
+        {.design = arguments.design,
+         .version = arguments.irace_version.empty() ? "4" : arguments.irace_version},
+        arguments.file, output);
   }
   if (arguments.format == "rdata") {
     const auto store = arguments.store.open_whole();

@@ -127,9 +127,14 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
   auto figure = kind.make(**store, *options);
   if (!figure) return fail(output, figure_exit_code(figure.error()), figure.error());
   if (!arguments.font.empty()) {
-    auto dressed = with_font(std::move(figure->svg), arguments.font);
-    if (!dressed) return fail(output, ExitCode::Usage, dressed.error());
-    figure->svg = std::move(*dressed);
+    std::vector<std::string*> sheets{&figure->svg};
+    for (std::string& page : figure->pages)
+      sheets.push_back(&page);
+    for (std::string* sheet : sheets) {
+      auto dressed = with_font(std::move(*sheet), arguments.font);
+      if (!dressed) return fail(output, ExitCode::Usage, dressed.error());
+      *sheet = std::move(*dressed);
+    }
   }
   if (*ending == ".png" && figure->pages.size() > kMostPagesOfPicture)
     return write_pages(figure->pages, arguments.file, output);

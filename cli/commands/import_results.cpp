@@ -1,6 +1,7 @@
 #include "cli/commands/import_results.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -149,6 +150,27 @@ Expected<void> compare_missions(const Addition& addition, StoreReader& store, Ou
   return {};
 }
 
+enum class Contents { Machines, Log, Scores };
+
+/// The first option that has no effect on a file with these contents.
+std::optional<Error> misplaced_option(const ImportArguments& arguments, Contents contents) {
+  const bool has_scores = contents == Contents::Scores;
+  const std::array<std::pair<const char*, bool>, 6> misplaced{
+      {{"--flavour", has_scores && !arguments.flavour.empty()},
+       {"--method", has_scores && !arguments.method.empty()},
+       {"--name", has_scores && !arguments.name.empty()},
+       {"--source", !has_scores && !arguments.source.empty()},
+       {"--cost-of", !has_scores && !arguments.costs_of.empty()},
+       {"--replace", !has_scores && arguments.replace}}};
+  for (const auto& [option, is_misplaced] : misplaced) {
+    if (!is_misplaced) continue;
+    const char* what = contents == Contents::Log ? "a log of irace" : "machines";
+    return Error{ErrorKind::BadInput,
+                 std::string("it has no effect on ") + (has_scores ? "scores" : what), option};
+  }
+  return std::nullopt;
+}
+
 /// The flavour of --flavour, if it is given.
 Expected<std::optional<Flavour>> said_flavour(const ImportArguments& arguments, Output& output) {
   if (arguments.flavour.empty()) return std::optional<Flavour>();
@@ -160,6 +182,8 @@ Expected<std::optional<Flavour>> said_flavour(const ImportArguments& arguments, 
 ExitCode import_machines_into(const ImportArguments& arguments,
                               OrErrors<std::vector<MachineText>> machines, Output& output) {
   if (!machines) return fail_all(output, machines.error());
+  if (const auto misplaced = misplaced_option(arguments, Contents::Machines))
+    return fail(output, ExitCode::Usage, *misplaced);
   const auto said = said_flavour(arguments, output);
   if (!said) return fail(output, ExitCode::Usage, said.error());
   const auto flavour = flavour_of(*machines, *said);
@@ -190,6 +214,8 @@ ExitCode import_machines_into(const ImportArguments& arguments,
 
 ExitCode import_log_into(const ImportArguments& arguments,
                          const std::map<std::string, std::string>& texts, Output& output) {
+  if (const auto misplaced = misplaced_option(arguments, Contents::Log))
+    return fail(output, ExitCode::Usage, *misplaced);
   IraceImport known{.campaign = campaign_name(arguments), .flavour = {}, .designs = {}};
   auto flavour = said_flavour(arguments, output);
   if (!flavour) return fail(output, ExitCode::Usage, flavour.error());
@@ -215,6 +241,8 @@ ExitCode import_log_into(const ImportArguments& arguments,
 
 ExitCode import_scores_into(const ImportArguments& arguments, const CsvTable& table,
                             Output& output) {
+  if (const auto misplaced = misplaced_option(arguments, Contents::Scores))
+    return fail(output, ExitCode::Usage, *misplaced);
   const auto missions = read_mission_words(arguments.missions);
   if (!missions) return fail_all(output, missions.error());
   auto target = open_target(arguments.into, StoreAtRest::IfMissing::Refuse);

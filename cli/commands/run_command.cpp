@@ -29,7 +29,7 @@ CommandRun declare_run(Options& options) {
   options.flag("--ship", arguments->ship,
                "Copy the worker to the hosts of ssh and Slurm: nothing has to be installed there");
   arguments->access.declare(options);
-  arguments->http.declare(options);
+  arguments->http.declare(options, "other pages only with --http");
   return [arguments](Output& output) {
     auto campaigns = arguments->campaign.read(output);
     if (!campaigns) return ExitCode::Usage;

@@ -18,7 +18,7 @@ CommandRun declare_serve(Options& options) {
   arguments->campaign.declare(options, Options::Need::Required);
   options.text("--bind HOST:PORT", arguments->bind,
                "Address and port for workers (default 127.0.0.1:5555, or the next free port)");
-  arguments->http.declare(options);
+  arguments->http.declare(options, "the other pages stay");
   arguments->access.declare(options);
   return [arguments](Output& output) {
     const auto campaigns = arguments->campaign.read(output);

@@ -190,7 +190,8 @@ Expected<Answer> race_answer(const Question& question) {
                                     }))
           .add("scores", cells_of(*race, shown, &RaceMatrix::Cell::score))
           .add("ranks", cells_of(*race, shown, &RaceMatrix::Cell::rank)),
-      ended);
+      // Without an iteration, the answer is about another one as soon as that has a step.
+      ended && !question.text("iteration").empty());
 }
 
 Expected<Answer> parameters_answer(const Question& question) {

@@ -66,15 +66,7 @@ Expected<StoredRun> find_run(const Question& question, const RunName& name) {
   auto runs = StoredRuns::open(std::move(*reader));
   if (!runs) return Unexpected(runs.error());
   if (name.id.letter == 'e') return runs->evaluation(name.id);
-  auto run = runs->candidate(name.id, name.seed);
-  if (!run || name.profile.empty() || name.profile == run->profile.name) return run;
-  auto profile = built_in_profile(name.profile);
-  if (!profile) return bad_input(profile.error().message, name.profile);
-  run->profile = std::move(*profile);
-  // The stored result for that seed was made under the candidate's own profile.
-  run->id.clear();
-  run->outcome.reset();
-  return run;
+  return runs->candidate(name.id, name.seed, name.profile);
 }
 
 Expected<RealReplay> find_real_run(const Question& question, const RunName& name) {

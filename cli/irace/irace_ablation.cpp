@@ -107,7 +107,7 @@ class AblationReport final : public RunListener {
     return fault();
   }
 
-  void restore(std::size_t, const Row&) override {}
+  void restore(std::size_t, const StoredProgress&) override {}
   void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) override {
     take(row);
     if (std::holds_alternative<EventRow>(row)) console_.add(campaign, row, now);

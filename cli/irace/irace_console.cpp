@@ -139,9 +139,10 @@ Expected<void> IraceConsole::go_on_from(StoreReader& store) {
   return {};
 }
 
-void IraceConsole::restore(std::size_t /*campaign*/, const Row& row) {
-  if (const auto* state = std::get_if<DesignStateRow>(&row)) used_ = std::max(used_, state->used);
-  if (const auto* command = std::get_if<CommandRow>(&row)) take(*command);
+void IraceConsole::restore(std::size_t /*campaign*/, const StoredProgress& stored) {
+  if (const auto* state = std::get_if<DesignStateRow>(&stored))
+    used_ = std::max(used_, state->used);
+  if (const auto* command = std::get_if<CommandRow>(&stored)) take(*command);
 }
 
 void IraceConsole::add(std::optional<std::size_t> /*campaign*/, const Row& row, TimePoint now) {

@@ -52,7 +52,7 @@ class IraceConsole final : public RunListener {
   /// last iteration.
   Expected<void> go_on_from(StoreReader& store);
 
-  void restore(std::size_t campaign, const Row& row) override;
+  void restore(std::size_t campaign, const StoredProgress& stored) override;
   void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) override;
   void update(const LiveStatus& live, TimePoint now) override;
   void finish(const LiveStatus& live) override;

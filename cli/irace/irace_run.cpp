@@ -50,7 +50,9 @@ class CostEvents final : public RunListener {
  public:
   explicit CostEvents(Progress& progress) : progress_(progress) {}
 
-  void restore(std::size_t campaign, const Row& row) override { progress_.restore(campaign, row); }
+  void restore(std::size_t campaign, const StoredProgress& stored) override {
+    progress_.restore(campaign, stored);
+  }
   void update(const LiveStatus& live, TimePoint now) override { progress_.update(live, now); }
   void finish(const LiveStatus& live) override { progress_.finish(live); }
 
@@ -79,7 +81,9 @@ class WorkWatch final : public RunListener {
  public:
   explicit WorkWatch(RunListener& teller) : teller_(teller) {}
 
-  void restore(std::size_t campaign, const Row& row) override { teller_.restore(campaign, row); }
+  void restore(std::size_t campaign, const StoredProgress& stored) override {
+    teller_.restore(campaign, stored);
+  }
   void update(const LiveStatus& live, TimePoint now) override { teller_.update(live, now); }
   void finish(const LiveStatus& live) override { teller_.finish(live); }
   void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) override {

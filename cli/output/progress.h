@@ -39,7 +39,9 @@ class Progress final : public RunListener {
            std::function<std::size_t()> width = terminal_width);
 
   /// Prints nothing.
-  void restore(std::size_t campaign, const Row& row) override { models_[campaign].add(row); }
+  void restore(std::size_t campaign, const StoredProgress& stored) override {
+    std::visit([&](const auto& part) { models_[campaign].add(part); }, stored);
+  }
   void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) override;
   /// Redraws at most ten times a second.
   void update(const LiveStatus& live, TimePoint now) override;

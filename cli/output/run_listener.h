@@ -2,12 +2,17 @@
 
 #include <cstddef>
 #include <optional>
+#include <variant>
 
 #include "base/clock.h"
 #include "coordinator/service/live_status.h"
 #include "storage/rows.h"
+#include "storage/store.h"
 
 namespace swarmsmith::cli {
+
+/// The progress of a design, a user's command, or the tests of a design's winner so far.
+using StoredProgress = std::variant<DesignStateRow, CommandRow, TestedDesign>;
 
 /// Receives the progress of campaigns. It is an abstract class because people, programs and irace's
 /// users need different output. A campaign is named by its index among the running campaigns; a row
@@ -16,8 +21,8 @@ class RunListener {
  public:
   virtual ~RunListener() = default;
 
-  /// The stored state of a continued campaign: the progress of its designs, and users' commands.
-  virtual void restore(std::size_t campaign, const Row& row) = 0;
+  /// A part of the stored state of a continued campaign.
+  virtual void restore(std::size_t campaign, const StoredProgress& stored) = 0;
   /// A new row; rows come in order.
   virtual void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) = 0;
   /// Called several times a second.

@@ -230,7 +230,8 @@ Expected<StoredRun> StoredRuns::evaluation(const ThingId& id) {
   return run;
 }
 
-Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) {
+Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed,
+                                          const std::string& profile_name) {
   const auto rows =
       select(*store_, "SELECT fsm_config, design FROM v_candidates WHERE candidate = " + id.digits);
   if (!rows) return Unexpected(rows.error());
@@ -251,8 +252,11 @@ Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) 
                          " --profile P --seeds " + std::to_string(seed) + "` simulates it",
                      run.candidate);
   }
-  const std::string source = world->profile ? world->profile->name : "command";
+  std::string source = world->profile ? world->profile->name : "command";
+  if (!profile_name.empty()) source = profile_name;
   auto profile = profile_of(*world, source);
+  if (!profile && !profile_name.empty())
+    return bad_input("neither the store nor this program has this profile", profile_name);
   if (!profile) return bad_input(to_string(profile.error()), run.candidate);
   // The pair may have been used for the race and for other purposes; all these rows have the same
   // outcome.

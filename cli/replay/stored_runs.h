@@ -49,8 +49,10 @@ class StoredRuns {
   /// NotFound if the store has no such evaluation. BadInput if it cannot be simulated: it was
   /// filmed or imported, its pair is missing, or this program does not know its profile.
   Expected<StoredRun> evaluation(const ThingId& id);
-  /// A candidate on any seed, with the stored result for that pair if there is one.
-  Expected<StoredRun> candidate(const ThingId& id, std::int64_t seed);
+  /// A candidate on any seed, with the stored result for that pair if there is one. `profile`: one
+  /// of the store's or of this program's; empty: that of the race.
+  Expected<StoredRun> candidate(const ThingId& id, std::int64_t seed,
+                                const std::string& profile = {});
   /// The ids of `count` simulated evaluations that have a score, evenly spaced in the order of
   /// candidates; all of them if there are fewer.
   Expected<std::vector<std::string>> sample(std::int64_t count);

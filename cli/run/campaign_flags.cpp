@@ -119,7 +119,7 @@ std::optional<std::vector<Campaign>> CampaignFlags::read(Output& output) const {
   return campaigns;
 }
 
-void HttpFlags::declare(Options& options) {
+void HttpFlags::declare(Options& options, const std::string& without_dashboard) {
   options.text(
       "--http HOST:PORT", http,
       "Address and port of the dashboard, /metrics, /healthz, /readyz and /status (default "
@@ -128,7 +128,7 @@ void HttpFlags::declare(Options& options) {
                "File of the secret that their readers must show");
   options.texts("--http-name HOST", names,
                 "Name of this host in addresses of the pages, such as a proxy's");
-  options.flag("--no-dashboard", no_dashboard, "No dashboard; other pages only with --http");
+  options.flag("--no-dashboard", no_dashboard, "No dashboard; " + without_dashboard);
 }
 
 void HttpFlags::put(RunOptions& run, const std::vector<Campaign>& campaigns) const {

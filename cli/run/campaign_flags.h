@@ -43,8 +43,9 @@ struct HttpFlags {
   std::vector<std::string> names;
   bool no_dashboard = false;
 
-  /// Declares --http, --http-token-file, --http-name and --no-dashboard.
-  void declare(Options& options);
+  /// Declares --http, --http-token-file, --http-name and --no-dashboard. `without_dashboard`: what
+  /// becomes of the other pages then.
+  void declare(Options& options, const std::string& without_dashboard);
   /// Sets the address: from the command line, else from the campaigns' files, else 127.0.0.1:8347
   /// or the next free port.
   void put(RunOptions& run, const std::vector<Campaign>& campaigns) const;

@@ -50,6 +50,8 @@ ExitCode CampaignMembers::open_stores(RunListener& listener) {
     if (!store) return fail(output_, exit_code_of_store(store.error()), store.error());
     for (const DesignStateRow& state : (*store)->design_states())
       listener.restore(i, state);
+    for (const TestedDesign& tested : (*store)->tested_designs())
+      listener.restore(i, tested);
     const std::vector<CommandRow> commands = (*store)->commands();
     for (const CommandRow& command : commands)
       listener.restore(i, command);

@@ -106,7 +106,8 @@ void write_text(Output& output, const Rows& rows, const StoredStages& stages, bo
       if (cells[9].type != Cell::Type::Null) {
         output.out << " +- " << shown(cells[9].text) << " (95 %)";
       }
-      output.out << " on " << text(10) << (costs ? " test instances" : " fresh seeds");
+      // A program is tested on test instances, or on fresh seeds of the training instances.
+      output.out << " on " << text(10) << (costs ? " tests" : " fresh seeds");
     }
     output.out << "\n  " << text(11) << "\n";
   }
@@ -141,14 +142,16 @@ ExitCode write_result(Output& output, StoreReader& store, const std::string& nam
   return failed ? ExitCode::Failed : ExitCode::Done;
 }
 
-void print_next_steps(Output& output, const std::string& store, bool is_demo) {
+void print_next_steps(Output& output, const std::string& store, bool has_winner, bool is_demo) {
   if (output.quiet) return;
   output.err << "\nEverything is in " << store << ". How to continue:\n"
              << "  swarmsmith dashboard " << store << "\n"
-             << "  swarmsmith report " << store << " -o report.html\n"
-             << "  swarmsmith ls elites " << store << "\n"
-             << "  swarmsmith export " << store << " --design d1 -o best.fsm\n"
-             << "  swarmsmith query " << store << "\n";
+             << "  swarmsmith report " << store << " -o report.html\n";
+  if (has_winner) {
+    output.err << "  swarmsmith ls elites " << store << "\n"
+               << "  swarmsmith export " << store << " --design d1 -o best.fsm\n";
+  }
+  output.err << "  swarmsmith query " << store << "\n";
   if (is_demo) output.err << "  swarmsmith init mine, to design for a mission of your own\n";
 }
 

@@ -13,7 +13,7 @@ namespace swarmsmith::cli {
 /// are several.
 ExitCode write_result(Output& output, StoreReader& store, const std::string& name = {});
 
-/// Prints suggested commands for the store.
-void print_next_steps(Output& output, const std::string& store, bool is_demo);
+/// Prints suggested commands for the store. `has_winner`: whether there is a machine to look at.
+void print_next_steps(Output& output, const std::string& store, bool has_winner, bool is_demo);
 
 }  // namespace swarmsmith::cli

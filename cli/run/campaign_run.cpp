@@ -342,7 +342,12 @@ ExitCode show_result(Output& output, const Campaign& campaign, const std::string
   const auto reader = StoreReader::open(campaign.store);
   if (!reader) return fail(output, exit_code_of_store(reader.error()), reader.error());
   const ExitCode written = write_result(output, **reader, name);
-  if (!output.json) print_next_steps(output, campaign.store.string(), campaign.name == "demo");
+  const auto winner =
+      select(**reader, "SELECT 1 FROM v_designs WHERE best_candidate IS NOT NULL LIMIT 1");
+  if (!output.json) {
+    print_next_steps(output, campaign.store.string(), winner && !winner->cells.empty(),
+                     campaign.name == "demo");
+  }
   return written;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/plain_text.h"
 #include "cli/output/query_output.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/design/campaign_runner.h"
@@ -135,8 +136,8 @@ Expected<std::string> command_at_rest(Store& store, const CampaignRow& known,
   if (auto written = write(store, {command}, last); !written) return Unexpected(written.error());
   const std::string name = to_string(command.design);
   if (command.kind == CommandKind::Cancel) return name + " ends when the campaign is run again";
-  return name + " gets " + std::to_string(command.budget) +
-         " more experiments when the campaign is run again";
+  return name + " gets " + counted(command.budget, "more experiment") +
+         " when the campaign is run again";
 }
 
 }  // namespace swarmsmith::cli

@@ -18,6 +18,10 @@ struct CoordinatorArgument {
 
   /// Whether the flags give the address.
   bool is_named() const { return !connect.empty() || !coordinator.empty(); }
+  /// The same flags without the address: each store's own coordinator is asked.
+  CoordinatorArgument of_store() const {
+    return {.connect = {}, .coordinator = {}, .key = key, .insecure_plaintext = insecure_plaintext};
+  }
   /// Arguments for `find_coordinator`, with an operator's key. `file` is used if the flags name no
   /// other place.
   CoordinatorSearch search(const std::string& file) const;

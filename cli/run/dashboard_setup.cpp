@@ -1,6 +1,7 @@
 #include "cli/run/dashboard_setup.h"
 
 #include <unistd.h>
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -35,8 +36,11 @@ std::unique_ptr<DashboardSetup> DashboardSetup::make(DashboardOptions options,
     may_act = !setup->token_.empty();
   }
   if (may_act) {
-    options.act = [coordinator](const std::filesystem::path& store, const CommandRow& command) {
-      return ask_campaign(store, coordinator, command);
+    options.act = [coordinator, stores = options.stores](const std::filesystem::path& store,
+                                                         const CommandRow& command) {
+      const auto known = std::ranges::find(stores, store, &DashboardStore::file);
+      const bool is_its_own = known == stores.end() || !known->place;
+      return ask_campaign(store, is_its_own ? coordinator.of_store() : coordinator, command);
     };
   }
   // Uses this program itself, so that the child process has the same version.
@@ -47,7 +51,8 @@ std::unique_ptr<DashboardSetup> DashboardSetup::make(DashboardOptions options,
 
 DashboardSetup::~DashboardSetup() {
   std::error_code none;
-  if (!file_.empty()) std::filesystem::remove(file_, none);
+  // A run of the campaign that began later has put its own token there.
+  if (!file_.empty() && read_token(file_) == token_) std::filesystem::remove(file_, none);
 }
 
 void DashboardSetup::announce(Output& output, const std::string& address) const {

@@ -247,8 +247,13 @@ Error CampaignRunner::no_such_design(DesignId id) const {
 }
 
 bool waits_for_extension(const std::vector<CommandRow>& commands) {
-  return std::ranges::any_of(commands, [](const CommandRow& command) {
-    return command.kind == CommandKind::Extend && !command.step;
+  const auto is_cancelled = [&](DesignId design) {
+    return std::ranges::any_of(commands, [&](const CommandRow& command) {
+      return command.kind == CommandKind::Cancel && command.step && command.design == design;
+    });
+  };
+  return std::ranges::any_of(commands, [&](const CommandRow& command) {
+    return command.kind == CommandKind::Extend && !command.step && !is_cancelled(command.design);
   });
 }
 

@@ -189,17 +189,19 @@ void DesignRunner::cancel(std::vector<Task>& tasks) {
 }
 
 Expected<bool> DesignRunner::extend(std::vector<Task>& tasks) {
-  const CommandRow* next = commands_.next(CommandKind::Extend, recorder_.steps());
-  if (next == nullptr) return false;
-  if (!search_) {
-    recorder_.record_warning("the design has no search to extend");
-    return false;
+  for (bool extended = false; !extended;) {
+    const CommandRow* next = commands_.next(CommandKind::Extend, recorder_.steps());
+    if (next == nullptr) return false;
+    if (!search_) {
+      recorder_.record_warning("the design has no search to extend");
+      return false;
+    }
+    const auto done = search_->extend(next->budget);
+    extended = done.has_value();
+    if (!extended) recorder_.record_warning("it cannot be extended: " + to_string(done.error()));
+    // A refused command is over, too: else those after it would wait for ever.
+    recorder_.record_command(commands_.act(*next, recorder_.steps()));
   }
-  if (auto extended = search_->extend(next->budget); !extended) {
-    recorder_.record_warning("it cannot be extended: " + to_string(extended.error()));
-    return false;
-  }
-  recorder_.record_command(commands_.act(*next, recorder_.steps()));
   recorder_.set_state(DesignState::Racing);
   recorder_.set_reason("");
   calls_.go_on();

@@ -37,9 +37,8 @@ Expected<LocalWorkers> LocalWorkers::start(const LocalWorkersOptions& options) {
   const int processes = std::max(1, options.processes);
   const int slots =
       options.slots > 0 ? options.slots : std::max(1, usable_processors() / processes);
-  workers.command_ = {
-      program.string(),      "--connect",         options.endpoint, "--slots",
-      std::to_string(slots), "--die-with-parent", "--parent",       std::to_string(getpid())};
+  workers.command_ = {program.string(),    "--connect", options.endpoint,
+                      "--die-with-parent", "--parent",  std::to_string(getpid())};
   workers.command_.insert(workers.command_.end(), options.arguments.begin(),
                           options.arguments.end());
   if (!options.secret.empty()) {
@@ -48,8 +47,9 @@ Expected<LocalWorkers> LocalWorkers::start(const LocalWorkersOptions& options) {
   workers.wanted_ = processes;
   std::random_device device;
   for (int i = 0; i < processes; ++i) {
-    workers.workers_.push_back(
-        {.process = {}, .backoff = Backoff(kFirstPause, kLongestPause, Rng(device()))});
+    workers.workers_.push_back({.process = {},
+                                .slots = slots + (i < options.more ? 1 : 0),
+                                .backoff = Backoff(kFirstPause, kLongestPause, Rng(device()))});
     const auto launched = workers.launch(workers.workers_.back(), SystemClock().now());
     if (!launched) return Unexpected(launched.error());
   }
@@ -64,7 +64,9 @@ LocalWorkers::~LocalWorkers() {
 /// still the process that started it, so it can never be orphaned. For the kernel, the parent is a
 /// *thread*, so all workers must be started by one thread.
 Expected<void> LocalWorkers::launch(Worker& worker, TimePoint now) {
-  const auto started = worker.process.start(command_, ChildProcess::Streams::Inherited, variables_);
+  std::vector<std::string> command = command_;
+  command.insert(command.end(), {"--slots", std::to_string(worker.slots)});
+  const auto started = worker.process.start(command, ChildProcess::Streams::Inherited, variables_);
   if (!started) {
     return unexpected(ErrorKind::Unavailable, "a worker " + started.error().message,
                       started.error().where);

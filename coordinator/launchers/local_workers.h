@@ -16,6 +16,7 @@ struct LocalWorkersOptions {
   std::string endpoint;  ///< the coordinator's endpoint
   int processes = 1;
   int slots = 0;  ///< for each process; 0: the usable processors, shared among the processes
+  int more = 0;   ///< so many processes have one slot more
   std::filesystem::path program;       ///< empty: the result of `find_worker_program`
   std::vector<std::string> arguments;  ///< additional arguments for the program
   std::string secret{};                ///< these workers show it to the coordinator, which then
@@ -41,6 +42,7 @@ class LocalWorkers final : public Launcher {
  private:
   struct Worker {
     ChildProcess process;
+    int slots;
     TimePoint started;
     TimePoint start_at;
     Backoff backoff;

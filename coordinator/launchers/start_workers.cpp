@@ -30,9 +30,11 @@ Started start_local(const WorkersSetup& setup) {
   std::int64_t processes = setup.launch.processes;
   if (setup.launch.slots > 0) processes = std::min(processes, setup.launch.slots);
   const int each = static_cast<int>(setup.launch.slots / processes);
+  const int rest = static_cast<int>(setup.launch.slots % processes);
   return boxed(LocalWorkers::start({.endpoint = setup.address.endpoint,
                                     .processes = static_cast<int>(processes),
                                     .slots = setup.local_slots > 0 ? setup.local_slots : each,
+                                    .more = setup.local_slots > 0 ? 0 : rest,
                                     .arguments = std::move(arguments),
                                     .secret = setup.local_secret}));
 }

@@ -145,6 +145,8 @@ TEST_F(Compare, WhatIsNotThereExitsWithFour) {
   EXPECT_EQ(ran.code, 4);
   EXPECT_THAT(ran.err, HasSubstr("no scores of mission `nowhere`; there are aggregation"));
   EXPECT_EQ(run({"compare", store_, "--table", "ranks"}).code, 2);
+  EXPECT_THAT(refusal({"compare", store_, "--csv", "--table", "matrix", "--by", "mission"}),
+              HasSubstr("leave --by out"));
   EXPECT_EQ(run({"compare", store_ + ".gone"}).code, 3);
 }
 

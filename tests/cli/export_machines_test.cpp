@@ -62,6 +62,24 @@ TEST_F(ExportMachines, RefusesOptionsThatMeanNothing) {
   EXPECT_EQ(run({"export", store_, "--format", "svg", "--seed", "3"}).code, 2);
   EXPECT_EQ(run({"export", store_, "--format", "argos", "--seed", "0"}).code, 2);
   EXPECT_THAT(run({"export", store_, "--format", "pdf"}).err, HasSubstr("-o FILE"));
+  // Each of these wrote something else than was asked for.
+  const std::string file = place("out");
+  for (const auto& [words, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"--what", "starts", "--format", "svg"},
+            "--format: --what starts writes a table: leave --format out"},
+           {{"--what", "patches", "--format", "json"},
+            "--format: --what patches writes a table: leave --format out"},
+           {{"--format", "irace", "--what", "all"},
+            "--what: it has no effect with --format irace: the folder has all of a design"},
+           {{"--format", "irace", "--candidate", "c2"},
+            "--candidate: it has no effect with --format irace: the folder has all of a design"},
+           {{"--format", "json", "--irace", "3.5"},
+            "--irace: it has no effect with --format json"}}) {
+    std::vector<std::string> all{"export", store_, "-o", file};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_THAT(refusal(all), HasSubstr(said));
+    EXPECT_FALSE(fs::exists(file));
+  }
 }
 
 TEST_F(ExportMachines, SaysWhichPackageMakesPdfs) {

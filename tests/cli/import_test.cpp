@@ -165,6 +165,25 @@ TEST_F(Import, ReadsGenomesAndTreesOfTheOlderForm) {
             0);
 }
 
+TEST_F(Import, RefusesOptionsThatTheFilesContentsDoNotUse) {
+  const std::string machines = file("m.fsm", kStopText + "\n");
+  const std::string scores = file("s.csv", "design,seed,score\n1,3,2\n");
+  write_store((folder_ / "demo.db").string());
+  for (const auto& [words, what] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{machines, "--flavour", "watermelon", "--source", "real"}, "machines"},
+           {{machines, "--flavour", "watermelon", "--cost-of", "aggregation"}, "machines"},
+           {{machines, "--flavour", "watermelon", "--replace"}, "machines"},
+           {{folder_.path().string(), "--replace"}, "a log of irace"},
+           {{scores, "--source", "real", "--flavour", "watermelon"}, "scores"},
+           {{scores, "--source", "real", "--method", "m"}, "scores"},
+           {{scores, "--source", "real", "--name", "n"}, "scores"}}) {
+    std::vector<std::string> all{"import", "--mission", "aggregation", "--into",
+                                 (folder_ / "demo.db").string()};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_THAT(refusal(all), HasSubstr(": it has no effect on " + what));
+  }
+}
+
 TEST_F(Import, SaysOnceThatAFileIsOfAnotherKind) {
   const std::string mission = file("cave.toml", "format = 1\n" + kMission);
   const std::string picture = file("p.png", "\x89PNG\r\n\x1a\nnothing\nmore\n");

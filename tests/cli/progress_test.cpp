@@ -334,6 +334,18 @@ TEST(Progress, OfACampaignThatGoesOnBeginsWhereItWas) {
   printer.progress().restore(0, kFinished);
   EXPECT_EQ(printer.err(), "");
   EXPECT_EQ(printer.progress().model().totals().finished, 1);
+  // Nine tests ran before, with a mean of 3; the tenth runs now.
+  printer.progress().restore(0, TestedDesign{kFinished.best, 3, 9});
+  EvaluationRow test;
+  test.key = {.candidate = kFinished.best, .purpose = Purpose::Test, .pair = 10};
+  test.measured.score = 2;
+  printer.progress().add(0, test, TimePoint{});
+  DesignStateRow again = kFinished;
+  again.state = DesignState::Testing;
+  printer.progress().add(0, again, TimePoint{});
+  printer.progress().add(0, kFinished, TimePoint{});
+  EXPECT_THAT(printer.err(), HasSubstr("finished  aggregation m 1  50 000/50 000  "
+                                       "best c812 2.9 in 10 tests"));
 }
 
 }  // namespace

@@ -41,6 +41,22 @@ TEST_F(Digest, ExitsWithThreeWhenTheStoreCannotBeUsed) {
   EXPECT_EQ(run({"digest", (folder_ / "text.db").string()}).code, 3);
 }
 
+TEST(FigureCommand, DrawsEachPageInTheFontThatWasAskedFor) {
+  const TemporaryFolder folder;
+  const SyntheticCampaign campaign = synthetic_campaign({.designs = 16, .iterations = 1});
+  const std::string file = (folder / "many.db").string();
+  fill_store(file, campaign);
+  const std::string drawn = (folder / "all.pdf").string();
+  const Ran ran = run({"figure", "machine", file, "-o", drawn, "--font", "DejaVu Serif"});
+  if (ran.err.find("librsvg2-bin") != std::string::npos) GTEST_SKIP() << ran.err;
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const std::string pdf = whole_file(drawn);
+  EXPECT_THAT(pdf, Not(HasSubstr("/Count 1\n"))) << "it has several pages";
+  if (pdf.find("/FontName") == std::string::npos) GTEST_SKIP() << "the fonts are compressed";
+  EXPECT_THAT(pdf, HasSubstr("+DejaVuSerif"));
+  EXPECT_THAT(pdf, Not(HasSubstr("+DejaVuSans")));
+}
+
 TEST_F(Ls, ListsWithLettersBeforeIds) {
   const Ran ran = run_well({"ls", "designs", store_});
   EXPECT_THAT(ran.out, HasSubstr("d1      aggregation  watermelon"));

@@ -77,6 +77,12 @@ TEST_F(StoreFigures, ARaceThatGoesOnIsDrawnAsFarAsItIs) {
   reader = open_reader(folder / "part.db");
   const Figure figure = made("race", {});
   EXPECT_THAT(figure.svg, HasSubstr("iteration 2 (still running)"));
+  {
+    auto again = open_store(folder / "part.db", campaign);
+    again->append({DesignStateRow{.design = {1}, .state = DesignState::Stopped}});
+  }
+  reader = open_reader(folder / "part.db");
+  EXPECT_THAT(made("race", {}).svg, HasSubstr("iteration 2 (stopped)"));
   const DrawnPage page = drawn_page(figure.svg);
   EXPECT_EQ(page.bars_of("#222222").size(), 3U);  // elites of before alone
   EXPECT_THAT(page.collisions(), IsEmpty());

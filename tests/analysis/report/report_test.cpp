@@ -1,5 +1,6 @@
 #include "analysis/report/report.h"
 
+#include <fmt/format.h>
 #include <regex>
 
 #include "analysis/report/supplement.h"
@@ -169,6 +170,16 @@ TEST_F(ReportTest, ASupplementHasSafeNamesInOrder) {
   const auto page = std::ranges::find(files, "report.html", &SupplementFile::path)->text;
   EXPECT_THAT(page, HasSubstr("<a href=\"designs/d1-_i_m__i_-it_s___x__-1.html\">d1</a>"));
   EXPECT_THAT(paths, Contains("figures/convergence.csv"));
+  // Each figure of one design is there for each of the two.
+  for (const std::string_view kind : {"race", "sampling", "parallel", "importance"}) {
+    EXPECT_EQ(std::ranges::count_if(paths,
+                                    [&](const std::string& path) {
+                                      return path.starts_with(fmt::format("figures/{}-d", kind)) &&
+                                             path.ends_with(".svg");
+                                    }),
+              2)
+        << kind << " " << testing::PrintToString(paths);
+  }
   const auto again =
       supplement(*reader, {.machine_file = as_is, .program = "p", .with_pdfs = true});
   for (std::size_t i = 0; i < files.size(); ++i)

@@ -12,6 +12,7 @@
 
 #include "base/text/gzip.h"
 #include "cli/dashboard/live_answers.h"
+#include "cli/run/dashboard_setup.h"
 #include "coordinator/service/http_address.h"
 #include "coordinator/service/http_server.h"
 #include "tests/cli/dashboard/asking.h"
@@ -290,6 +291,40 @@ TEST_F(DashboardTest, MethodsAreAllowedByName) {
     EXPECT_EQ(header_of(answer, "Allow"), "POST");
   }
   EXPECT_TRUE(commands_.empty());
+}
+
+class DashboardSetupTest : public WithStore {
+ protected:
+  std::unique_ptr<DashboardSetup> setup(const CoordinatorArgument& coordinator = {}) const {
+    DashboardOptions options{.stores = {{store_, 0}, {second_}}};
+    options.program = SWARMSMITH_BIN_DIR "/swarmsmith";
+    return DashboardSetup::make(std::move(options), coordinator, DashboardSetup::Secret::New);
+  }
+
+  std::filesystem::path second_ = folder_ / "second.db";
+};
+
+TEST_F(DashboardSetupTest, RemovesItsOwnTokenAndNotThatOfALaterRun) {
+  const std::filesystem::path file = token_file_of(store_);
+  setup().reset();
+  EXPECT_FALSE(std::filesystem::exists(file));
+  auto first = setup();
+  const auto later = setup();
+  first.reset();
+  EXPECT_EQ(read_token(file).value_or("gone"), later->token());
+}
+
+TEST_F(DashboardSetupTest, ANamedCoordinatorIsThatOfTheFirstStoreAlone) {
+  const Campaign campaign = one_design_campaign();
+  ASSERT_TRUE(Store::open(second_, campaign_row(campaign), design_rows(campaign)));
+  const auto at_wrong_place = setup({.coordinator = (folder_ / "none.coordinator").string()});
+  const auto pause = [&](const std::string& store) {
+    return at_wrong_place->site()->answer(
+        {.acts = true, .path = "/api/v1/" + store + "/designs/d1/pause", .peer = "ann@lab"});
+  };
+  const SiteAnswer of_second = pause("c2");
+  EXPECT_EQ(of_second.status, 200) << of_second.body;
+  EXPECT_NE(pause("c1").status, 200);
 }
 
 TEST_F(DashboardTest, AnotherNameIsAnotherHost) {

@@ -73,6 +73,18 @@ TEST_F(GrowingStoreTest, WhatLiveHasToldOfIsInEveryAnswerAfterIt) {
   EXPECT_GT(steps(), before) << "the answer of a moment ago lacks what `live` has told of";
 }
 
+TEST_F(GrowingStoreTest, TheRaceWithoutANumberIsTheNewestAtEachTime) {
+  // A batch for an iteration's beginning, one a step, and one for its elites. The second iteration
+  // has begun, and has no step yet.
+  write(1 + 7 + 1 + 1);
+  const json first = asking_.json("c1/designs/d1/race");
+  EXPECT_EQ(first["iteration"], 1);
+  EXPECT_EQ(first["ended"], true);
+  write(campaign_.batches.size());
+  asking_.json("live");
+  EXPECT_EQ(asking_.json("c1/designs/d1/race")["iteration"], 3);
+}
+
 TEST_F(GrowingStoreTest, AnotherFileUnderTheNameIsAnotherStore) {
   write(1);
   ASSERT_EQ(asking_.json("c1")["campaign"]["name"], campaign_.campaign.name);

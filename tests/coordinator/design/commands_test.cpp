@@ -152,6 +152,10 @@ TEST(Commands, OnlyAnExtensionThatHasNotActedIsWaitedFor) {
   EXPECT_FALSE(waits_for_extension({}));
   EXPECT_FALSE(waits_for_extension({done, pause, cancel(3)}));
   EXPECT_TRUE(waits_for_extension({done, pause, extend(3, 500)}));
+  CommandRow stop = cancel(4, 2);
+  stop.step = 50;
+  EXPECT_FALSE(waits_for_extension({extend(3, 500, 2), stop})) << "its design was cancelled";
+  EXPECT_TRUE(waits_for_extension({extend(3, 500), stop}));
   const std::vector<DesignStateRow> over = {{.design = {1}, .state = DesignState::Finished},
                                             {.design = {2}, .state = DesignState::Racing}};
   EXPECT_EQ(ended_designs(over, {done, pause, cancel(3)}), std::vector{DesignId{1}});

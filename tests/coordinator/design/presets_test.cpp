@@ -102,5 +102,40 @@ TEST_P(ResumedPresets, HaveTheSameRowsFromEachTenthStepOn) {
   EXPECT_GE(steps, 10);
 }
 
+/// While a design races, how much is too little is not known yet.
+TEST(Extensions, OneThatIsTooSmallDoesNotHoldUpTheNext) {
+  const std::vector<DesignPlan> plans =
+      plans_of({"evostick", "[method.evolution]\npopulation = 10\nruns = 2\nfinal_runs = 5\n"});
+  const auto used_after = [&](const std::vector<CommandRow>& commands, Memory& memory) {
+    memory.rows.insert(memory.rows.end(), commands.begin(), commands.end());
+    CampaignRunner runner(plans, by_design(memory.scores(), memory.steps(), {}), {}, commands);
+    run(runner, memory);
+    EXPECT_FALSE(waits_for_extension(memory.commands()));
+    return memory.only<DesignStateRow>().back().used;
+  };
+  const CommandRow small{
+      .number = 1, .kind = CommandKind::Extend, .design = {1}, .step = {}, .budget = 1};
+  const CommandRow enough{
+      .number = 2, .kind = CommandKind::Extend, .design = {1}, .step = {}, .budget = 300};
+  Memory plain;
+  Memory both;
+  const std::int64_t used = used_after({small, enough}, both);
+  EXPECT_EQ(used, used_after({enough}, plain));
+  EXPECT_GT(used, plans.front().scenario.max_experiments + 200);
+  const std::vector<CommandRow> acted = both.commands();
+  ASSERT_EQ(acted.size(), 2U);
+  ASSERT_TRUE(acted[0].step);
+  EXPECT_EQ(acted[0].step, acted[1].step);
+  std::vector<std::string> warnings;
+  for (const EventRow& event : both.only<EventRow>())
+    warnings.push_back(event.text);
+  EXPECT_THAT(warnings, ::testing::Contains(::testing::HasSubstr("it cannot be extended: ")));
+  // A third one repeats the first two after their step.
+  std::vector<CommandRow> three = acted;
+  three.push_back(enough);
+  three.back().number = 3;
+  EXPECT_GT(used_after(three, both), used + 200);
+}
+
 }  // namespace
 }  // namespace swarmsmith

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <semaphore>
 #include <thread>
 #include <vector>
@@ -87,6 +88,24 @@ TEST_F(Processes, EvaluateACampaign) {
   open(200, 1200);
   run_to_the_end(local(2));
   EXPECT_EQ(store.rows_of<EvaluationRow>().size(), 200U);
+}
+
+TEST_F(Processes, ShareAnUnevenNumberOfSlots) {
+  open(8, 800'000);
+  LocalWorkersOptions options = local(3, 1);
+  options.more = 2;
+  std::jthread loop = run();
+  {
+    const auto started = value_of(LocalWorkers::start(options));
+    EXPECT_TRUE(eventually([&] { return workers.load() == 3; }));
+  }
+  stop(loop);
+  std::map<std::int64_t, std::int64_t> slots;
+  for (const WorkerRow& worker : store.rows_of<WorkerRow>())
+    slots[worker.id] = worker.slots;
+  EXPECT_THAT(slots, testing::UnorderedElementsAre(testing::Pair(testing::_, 2),
+                                                   testing::Pair(testing::_, 2),
+                                                   testing::Pair(testing::_, 1)));
 }
 
 TEST_F(Processes, RequeueWhatAKilledWorkerHadWithoutWaitingForItsSilence) {
