@@ -171,6 +171,21 @@ TEST_F(RunAnswersTest, ACandidateRunsUnderAnotherProfile) {
   EXPECT_EQ(asking.error("c1/runs/c1-21@nowhere/trajectory"), "400 bad_input");
 }
 
+TEST_F(RunAnswersTest, ACandidateRunsUnderAProfileOfItsCampaign) {
+  const std::filesystem::path profile = folder_ / "slow.toml";
+  write_file(profile, "format = 1\nbase = \"rvr\"\n[proximity]\nrange = 0.2\n");
+  const Campaign campaign = value_of(parse_campaign(
+      "format = 1\n[campaign]\nname = \"two\"\n[[mission]]\nname = \"aggregation\"\n[[method]]\n"
+      "name = \"watermelon\"\n[race]\nmax_experiments = 2_000\n[tests]\nprofiles = [\"rvr\", \"" +
+          profile.string() + "\"]\n",
+      (folder_ / "two.toml").string()));
+  const std::string file = (folder_ / "two.db").string();
+  write_store(file, campaign);
+  const json run = Asking(file).json("c1/runs/c1-7@slow/trajectory");
+  EXPECT_EQ(run["source"], "slow");
+  EXPECT_TRUE(run["evaluation"].is_null());
+}
+
 TEST_F(RunAnswersTest, WhatIsNoRunIsSaidToBeNone) {
   const Asking asking(store_);
   for (const char* id : {"c1", "d1", "e", "c1-", "c1-x", "c1-0", "e100001-3", "c1-99999999999",
