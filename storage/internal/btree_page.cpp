@@ -17,11 +17,6 @@ class Cursor {
 
   std::size_t at() const { return at_; }
   std::size_t left() const { return bytes_.size() - at_; }
-  std::optional<std::uint64_t> number(std::size_t bytes) {
-    if (left() < bytes) return std::nullopt;
-    at_ += bytes;
-    return big_endian(bytes_, at_ - bytes, bytes);
-  }
   /// A number with seven bits in each byte, and eight in the ninth.
   std::optional<std::uint64_t> varint() {
     std::uint64_t value = 0;
