@@ -46,7 +46,7 @@ Expected<void> check_numbers(const Scenario& s) {
       {"min_nb_survival", number(s.min_nb_survival), 0, kMany},
       {"nb_configurations", number(s.nb_configurations), 0, kMost},
       {"nb_experiments_per_iteration", number(s.nb_experiments_per_iteration), 0, kMost},
-      {"mu", number(s.mu), 1, kMost},
+      {"mu", number(s.mu), 0, kMost},
       {"elitist_new_instances", number(s.elitist_new_instances), 0, kMany},
       {"elitist_limit", number(s.elitist_limit), 0, kMost},
       {"max_configurations_per_race", number(s.max_configurations_per_race), 2, kMost},

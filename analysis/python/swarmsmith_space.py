@@ -66,6 +66,8 @@ class _Choice:
         return self.values[self.texts.index(str(text))]
 
     def text(self, value):
+        if value is None and plain(None) not in self.texts:  # an inactive parameter
+            return "NA"
         if plain(value) not in self.texts:
             raise SpaceError(f"{value!r} is not one of its values {self.values}")
         return f'"{plain(value)}"'
@@ -96,15 +98,17 @@ class _Number:
         if len(known) == 2 and not lower < upper:
             raise SpaceError(f"the lower end of a range must be below the upper one, found {lower!r} and {upper!r}")
 
-    def _check(self, bound):
-        if not is_number(bound) or not abs(bound) <= LARGEST:
-            raise SpaceError(f"the end of a range must be a number, and finite, found {bound!r}")
+    def _check(self, number, what="the end of a range"):
+        if not is_number(number) or not abs(number) <= LARGEST:
+            raise SpaceError(f"{what} must be a number, and finite, found {number!r}")
 
     def domain(self):
         return ", ".join(bound if isinstance(bound, str) else repr(self.type(bound)) for bound in (self.lower, self.upper))
 
     def text(self, value):
-        self._check(value)
+        if value is None:  # an inactive parameter
+            return "NA"
+        self._check(value, "the value")
         low, high = (bound if is_number(bound) else value for bound in (self.lower, self.upper))
         if not low <= value <= high:
             raise SpaceError(f"{value!r} is not between {self.lower!r} and {self.upper!r}")
@@ -119,12 +123,12 @@ class Integer(_Number):
     """Whole numbers from lower to upper; with `log` sampled in the logarithm. A tuple of two of them means the same."""
     kind, type = "i", int
 
-    def _check(self, bound):
-        super()._check(bound)
-        if bound != int(bound):
-            raise SpaceError(f"{bound!r} is not a whole number")
-        if abs(bound) > LARGEST_WHOLE:
-            raise SpaceError(f"{bound!r} is too large: whole numbers are exact up to {LARGEST_WHOLE}; tune its logarithm instead")
+    def _check(self, number, what="the end of a range"):
+        super()._check(number, what)
+        if number != int(number):
+            raise SpaceError(f"{number!r} is not a whole number")
+        if abs(number) > LARGEST_WHOLE:
+            raise SpaceError(f"{number!r} is too large: whole numbers are exact up to {LARGEST_WHOLE}; tune its logarithm instead")
 
     def value(self, text):
         return int(text)

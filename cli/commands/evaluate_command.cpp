@@ -278,9 +278,11 @@ CommandRun declare_evaluate(Options& options) {
   options.choice("--turn-clock", arguments->turn_clock, {"cycles", "seconds"},
                  "What turns of exploration are measured in (default: as the candidate or the file "
                  "says, else the flavour's)");
-  options.text("--profile PROFILE|FILE", arguments->profile,
-               "Simulator profile: " + joined(profile_names()) +
-                   " or a file (default: the candidate's or the file's, else rvr)");
+  options.text(
+      "--profile PROFILE|FILE", arguments->profile,
+      "Simulator profile: " + joined(profile_names()) +
+          " or a file (default: the candidate's or the file's, else rvr or epuck, as the robot "
+          "is)");
   options.text("--mission MISSION|FILE", arguments->mission,
                joined(mission_names()) + " or a file (default: the candidate's or the file's)");
   options.text("--campaign FILE", arguments->campaign,

@@ -7,6 +7,7 @@
 #include "coordinator/campaign/campaign_text.h"
 #include "coordinator/campaign/method_space.h"
 #include "coordinator/campaign/network_space.h"
+#include "irace_core/files/instances_file.h"
 #include "irace_core/files/parameter_file.h"
 
 namespace swarmsmith {
@@ -124,14 +125,6 @@ std::string readme(const Campaign& campaign, const Method& method, const DesignR
          to_string(design.id) + " --seeds 1-200 -- " + found_text(method) + "\n";
 }
 
-/// One text per line.
-std::string lines_of(const std::vector<std::string>& texts) {
-  std::string lines;
-  for (const std::string& text : texts)
-    lines += text + "\n";
-  return lines;
-}
-
 /// The method's space, in which the switches and values of a configuration form its text. For
 /// networks the space has only the weights, and the target-runner makes the text from them.
 Expected<ParameterSpace> space_in_grammar(const Method& method, const Flavour& flavour,
@@ -201,17 +194,22 @@ Expected<IraceSetup> setup_of_target(const Campaign& campaign, const Method& met
   return setup;
 }
 
-/// Adds all files except the parameter file.
-void add_files(const IraceSetup& setup, IraceVersion version, IraceFileNames names,
-               IraceFolder& folder) {
-  folder.files.push_back({names.training, lines_of(setup.training)});
+/// Adds all files except the parameter file. Errors: an instance that the file cannot have.
+Expected<void> add_files(const IraceSetup& setup, IraceVersion version, IraceFileNames names,
+                         IraceFolder& folder) {
+  auto training = print_instances(setup.training);
+  if (!training) return Unexpected(training.error());
+  folder.files.push_back({names.training, std::move(*training)});
   if (!setup.test.empty()) {
     names.test = "test-instances.txt";
-    folder.files.push_back({names.test, lines_of(setup.test)});
+    auto test = print_instances(setup.test);
+    if (!test) return Unexpected(test.error());
+    folder.files.push_back({names.test, std::move(*test)});
   }
   const IraceScenarioText scenario = print_irace_scenario(setup, version, names);
   folder.files.push_back({"scenario.txt", scenario.text});
   folder.remarks = scenario.remarks;
+  return {};
 }
 
 /// Adds the parameter file; returns the names of the files that belong to it.
@@ -271,7 +269,8 @@ Expected<IraceFolder> irace_folder(const Campaign& campaign, const DesignRow& de
     names->configurations = "configurations.txt";
     folder.files.push_back({names->configurations, method.configurations});
   }
-  add_files(*setup, version, *names, folder);
+  if (auto added = add_files(*setup, version, *names, folder); !added)
+    return Unexpected(added.error());
   if (campaign.target) return folder;
   folder.files.push_back({"README", readme(campaign, method, design, version)});
   folder.files.push_back({"campaign.toml", normalised_text(campaign)});

@@ -36,7 +36,11 @@ std::optional<std::string> text_of(const Scalar& scalar) {
 Expected<IraceValue> value_for(const IraceOption& option, const r::Vector& vector) {
   if (vector.empty()) return IraceValue{};
   if (option.kind == IraceKind::Texts) {
-    if (vector.size() == 1 && vector.front().missing) return IraceValue{};
+    // "" stands for the default, as for the other options (irace facts, 23.1).
+    const bool is_nothing = vector.size() == 1 &&
+                            (vector.front().missing || (vector.front().type == Scalar::Type::Text &&
+                                                        vector.front().text.empty()));
+    if (is_nothing) return IraceValue{};
     return r::to_texts(vector);
   }
   if (vector.size() != 1) {
@@ -57,7 +61,6 @@ class ScenarioReader {
   ScenarioReader(const fs::path& top, const ScenarioSurroundings& surroundings)
       : top_(top), surroundings_(surroundings) {
     environment_.environment_variable = surroundings.environment_variable;
-    environment_.folder = surroundings.folder.empty() ? top.parent_path() : surroundings.folder;
     environment_.read = surroundings.read;
   }
 
@@ -68,8 +71,11 @@ class ScenarioReader {
       return;
     }
     open_.push_back(file);
+    // R works in a file's folder while it reads it: source(..., chdir = TRUE).
+    const fs::path before = std::exchange(environment_.folder, file.parent_path());
     for (const r::Statement& statement : *statements)
       read_statement(statement, file);
+    environment_.folder = before;
     open_.pop_back();
   }
 
@@ -185,7 +191,7 @@ class ScenarioReader {
 
   void include(const std::string& name, r::Place where, const fs::path& file) {
     constexpr std::size_t kMostFiles = 1000;
-    const fs::path included = absolute_path(name, top_.parent_path());
+    const fs::path included = absolute_path(name, file.parent_path());
     if (std::ranges::find(open_, included) != open_.end()) {
       return complain(file, where, included.string() + " includes itself");
     }
@@ -223,8 +229,7 @@ IraceScenarioFileOrErrors read_irace_scenario(const fs::path& file) {
     const char* value = std::getenv(name.c_str());
     return value == nullptr ? std::nullopt : std::optional<std::string>(value);
   };
-  std::error_code none;
-  return parse_irace_scenario(*text, file, {read_whole_file, variable, fs::current_path(none)});
+  return parse_irace_scenario(*text, file, {read_whole_file, variable});
 }
 
 }  // namespace swarmsmith

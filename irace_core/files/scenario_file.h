@@ -25,13 +25,13 @@ struct ScenarioSurroundings {
   std::function<Expected<std::string>(const std::filesystem::path&)> read;
   /// Returns the value of an environment variable; nothing if it is not set.
   std::function<std::optional<std::string>(const std::string& name)> environment_variable;
-  /// The working directory of the process (getwd); empty: the folder of the scenario.
-  std::filesystem::path folder{};
 };
 
 /// Reads a scenario (irace facts, 23.1): options, the user's own variables (whose names begin with
-/// a dot), and `include.scenario("other.txt")` (relative to `file`, like all paths). All errors are
-/// reported together, except those that follow from an earlier error; `where` is file:line:column.
+/// a dot), and `include.scenario("other.txt")`. Files that a scenario names in R's words, includes
+/// too, are relative to the file that names them; paths in options are relative to `file`. All
+/// errors are reported together, except those that follow from an earlier error; `where` is
+/// file:line:column.
 /// `file` must be absolute; it is not opened.
 IraceScenarioFileOrErrors parse_irace_scenario(std::string_view text,
                                                const std::filesystem::path& file,

@@ -162,7 +162,8 @@ Scalar transform(Operation operation, const Scalar& x, double digits) {
   if (operation == Operation::SquareRoot) return Scalar::real(std::sqrt(v));
   if (operation == Operation::Exp) return Scalar::real(exp(v));
   if (operation == Operation::Log) return Scalar::real(log(v));
-  const int decimals = static_cast<int>(std::clamp(digits, 0.0, 15.0));
+  const double whole_digits = std::floor(digits + 0.5);
+  const int decimals = static_cast<int>(std::clamp(whole_digits, -irace::kMostZeros, 15.0));
   return Scalar::real(irace::round_to_digits(v, decimals));  // Round
 }
 
@@ -177,7 +178,8 @@ bool is_comparison(Operation operation) {
 Scalar binary(Operation operation, const Scalar& a, const Scalar& b) {
   if (is_logic(operation)) return logic(operation, a, b);
   if (is_comparison(operation)) return compare(operation, a, b);
-  if (operation == Operation::Round) return transform(operation, a, b.missing ? 0 : b.number);
+  if (operation == Operation::Round)
+    return b.missing ? Scalar::missing_of(Type::Real) : transform(operation, a, b.number);
   if (operation == Operation::Log) {  // to the base b
     return calculate(Operation::Divide, transform(operation, a, 0), transform(operation, b, 0));
   }

@@ -7,8 +7,12 @@ inline constexpr double kLargestInteger = 2147483647;
 /// Values are doubles; above this limit, doubles do not represent every whole number.
 inline constexpr double kLargestWhole = 9007199254740991;
 
-/// `value` with `digits` decimals (0 to 15), by R's rule since 4.0.0: of the two neighbouring
-/// decimals the one that is nearer in double arithmetic; on a tie the one whose last digit is even.
+/// With more digits below 0, every double is rounded to 0.
+inline constexpr double kMostZeros = 309;
+
+/// `value` with `digits` decimals (-309 to 15; -2: hundreds), by R's rule since 4.0.0: of the two
+/// neighbouring decimals the one that is nearer in double arithmetic; on a tie the one whose last
+/// digit is even.
 /// A value that would keep more than 15 significant digits is returned unchanged.
 double round_to_digits(double value, int digits);
 

@@ -34,6 +34,9 @@ std::optional<std::string> complaint_about_name(std::string_view before) {
 
 std::optional<std::string> remark_about(std::string_view text) {
   if (!text.starts_with(kGenomeStart)) return std::nullopt;
+  // The programs of genomes with the inputs rm1.1 read everything in the same units.
+  const auto network = read_genome(tokens_of(text));
+  if (network && network->inputs == NetworkInputs::Rm11) return std::nullopt;
   return "genomes are read as networks with the inputs rm1.2, in the order of their nodes; the "
          "programs that made them read neighbours and floor in other units, so scores differ "
          "(docs/methods.md)";

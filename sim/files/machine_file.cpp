@@ -239,6 +239,8 @@ tl::expected<std::vector<FiledMachine>, std::vector<Error>> parse_machine_file(
         "this is " + *kind + "; expected machines, trees or networks as texts (docs/machines.md)",
         file.string()}});
   }
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   Reader reader(file.string());
   for (const std::string_view line : split_lines(text))
     reader.take(line);

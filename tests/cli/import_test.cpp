@@ -132,6 +132,20 @@ TEST_F(Import, ReadsGenomesAndTreesOfTheOlderForm) {
       0);
   EXPECT_THAT(run({"show", "c1", store_}).out, HasSubstr("--network rm1.2 --weights 0.5,"));
 
+  // The programs of genomes with the inputs rm1.1 have our units.
+  std::string single = "genomestart 1\n";
+  for (int i = 1; i <= 27; ++i)
+    single += "node " + std::to_string(i) + (i <= 25 ? " 0 1 " : " 0 0 ") +
+              (i < 25    ? "1"
+               : i == 25 ? "3"
+                         : "2") +
+              "\n";
+  single += "gene 0 1 26 0.5 0 0 1 1\ngenomeend 1\n";
+  const Ran of_epucks =
+      run_well({"evaluate", file("gen_2", single), "--flavour", "chocolate-epuck", "--mission",
+                SWARMSMITH_SOURCE_DIR "/examples/missions/epuck/rt-aac.toml", "--seeds", "1"});
+  EXPECT_THAT(of_epucks.err, Not(HasSubstr("other units")));
+
   // A refusal is one line.
   std::string evolved = genome;
   evolved.insert(evolved.find("gene 0"), "node 19 0 0 0\n");

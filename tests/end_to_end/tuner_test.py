@@ -95,6 +95,10 @@ class SpaceTest(unittest.TestCase):
     def test_configurations_are_checked(self):
         space = swarmsmith_space.Space({"x": (0.0, 1.0), "m": ["a", None]})
         self.assertEqual(space.configuration_line({"m": None, "x": 1}), '1.0 "None"')
+        inactive = swarmsmith_space.Space({"x": (0.0, 1.0), "m": ["a", "b"]})
+        self.assertEqual(inactive.configuration_line({"m": None, "x": None}), "NA NA")
+        with self.assertRaisesRegex(swarmsmith_space.SpaceError, "x: the value must be a number, and finite, found 'abc'"):
+            space.configuration_line({"x": "abc"})
         for configuration, sentence in (({"y": 1}, "'y' is not a parameter of the space: it has x, m"), ({"xx": 1}, "did you mean 'x'"),
                                         ({"x": 2}, "x: 2 is not between 0.0 and 1.0"), ({"x": "a"}, "x: .* a number"),
                                         ({"m": "b"}, "m: 'b' is not one of its values")):

@@ -133,8 +133,15 @@ TEST(Expression, GivesResultsTheTypeThatRGivesThem) {
       {call(Round, number(2.345), number(1)), "real 2.3"},
       {call(Round, number(2.5)), "real 2"},
       {call(Round, number(0.1234), number(20)), "real 0.1234"},
-      {call(Round, number(2.345), Expression::missing()), "real 2"},
-      {call(Round, number(12.5), negate_of(1)), "real 12"},
+      {call(Round, number(2.345), Expression::missing()), "real NA"},
+      {call(Round, number(1.25), number(0.5)), "real 1.2"},
+      {call(Round, number(1.25), number(0.4)), "real 1"},
+      {call(Round, number(1234), negate_of(2)), "real 1200"},
+      {call(Round, number(150), negate_of(2)), "real 200"},
+      {call(Round, number(250), negate_of(2)), "real 200"},
+      {call(Round, negate_of(1250), negate_of(2)), "real -1200"},
+      {call(Round, number(5), negate_of(1)), "real 0"},
+      {call(Round, number(7), negate_of(400)), "real 0"},
       {call(Round, text("2")), "real NA"},
   });
 }

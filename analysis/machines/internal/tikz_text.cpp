@@ -16,9 +16,10 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
     text.replace(at, from.size(), to), at += to.size();
 }
 
-/// Labels contain letters, digits, signs of numbers and the Greek letters of parameters;
-/// labels of trees and networks also contain an arrow and degree signs.
+/// Labels contain letters, digits, `_` in names, signs of numbers and the Greek letters of
+/// parameters; labels of trees and networks also contain an arrow and degree signs.
 std::string tex_text(std::string text) {
+  replace_all(text, "_", "\\_");
   replace_all(text, "τ", "$\\tau$");
   replace_all(text, "α", "$\\alpha$");
   replace_all(text, "β", "$\\beta$");

@@ -106,15 +106,15 @@ Expected<Vector> read_lines(const Node& node, const Arguments& given,
   return vector_of(std::move(lines));
 }
 
-/// Converts R's \\1 to ECMAScript's $1.
+/// Converts R's \\1 to ECMAScript's $01: there a second digit would belong to the number.
 std::string replacement_of(const std::string& text) {
   std::string written;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\\' && i + 1 < text.size()) {
       ++i;
       const bool is_group = text[i] >= '0' && text[i] <= '9';
-      written +=
-          is_group ? (text[i] == '0' ? "$&" : std::string("$") + text[i]) : std::string(1, text[i]);
+      written += is_group ? (text[i] == '0' ? "$&" : std::string("$0") + text[i])
+                          : std::string(1, text[i]);
     } else {
       written += text[i] == '$' ? "$$" : std::string(1, text[i]);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cctype>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -37,11 +38,20 @@ struct SetupWork {
                          ? Error{error.kind, named(option, error.message), where(option)}
                          : error);
   }
+  /// "mu" is a word of "the `mu` of irace", and not of "must be".
+  static bool has_word(std::string_view message, std::string_view word) {
+    const auto continues = [&](std::size_t at) {
+      return at < message.size() && std::isalnum(static_cast<unsigned char>(message[at])) != 0;
+    };
+    for (std::size_t at = message.find(word); at != std::string_view::npos;
+         at = message.find(word, at + 1)) {
+      if ((at == 0 || !continues(at - 1)) && !continues(at + word.size())) return true;
+    }
+    return false;
+  }
   /// Adds the option's name to a message if neither the message nor the place contains it.
   std::string named(std::string_view option, const std::string& message) const {
-    const bool is_said =
-        message.find(option) != std::string::npos || where(option).find(':') == std::string::npos;
-    if (is_said) return message;
+    if (has_word(message, option) || where(option).find(':') == std::string::npos) return message;
     const bool goes_on = message.starts_with("must ") || message.starts_with("needs ") ||
                          message.starts_with("uses ") || message.starts_with("stands ");
     return "`" + std::string(option) + (goes_on ? "` " : "`: ") + message;

@@ -96,6 +96,12 @@ TEST(MachineTikz, HoldsNothingButPlainTikz) {
   }
 }
 
+TEST(MachineTikz, EscapesTheUnderscoresOfNames) {
+  MachineLayout layout = small_layout();
+  layout.states.front().lines.front().text = "turn_speed = 0.25, τ_2 = 1";
+  EXPECT_THAT(tikz_of(layout), HasSubstr("{turn\\_speed = 0.25, $\\tau$\\_2 = 1};"));
+}
+
 TEST(MachineTikz, HasThePlacesOfTheSvg) {
   const MachineLayout layout = small_layout();
   const std::string tikz = tikz_of(layout);

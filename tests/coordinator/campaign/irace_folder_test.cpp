@@ -212,5 +212,23 @@ TEST(IraceFolder, OfATargetCallsItsPrograms) {
     EXPECT_NE(file.name, "target-runner");
 }
 
+TEST(IraceFolder, InstancesThatALineCannotHoldAreRefused) {
+  for (const char* wrong : {"a#b", " lead"}) {
+    for (const char* list : {"training", "test"}) {
+      const std::string other = std::string(list) == "test" ? "instances.training = [\"a\"]\n" : "";
+      const Campaign campaign = parsed(FileText{
+          .mission =
+              "name = \"tuning\"\n" + other + "instances." + list + " = [\"" + wrong + "\"]\n",
+          .method = "name = \"all\"\nparameters_text = \"a \\\"--a \\\" r (0, 10)\"\n",
+          .race = "max_experiments = 400\n",
+          .rest = "[simulator]\nkind = \"command\"\ncommand = [\"/opt/run.sh\"]\n"}
+                                           .text());
+      EXPECT_THAT(complaint_of(irace_folder(campaign, design_rows(campaign).front(),
+                                            IraceVersion::V4, "/p")),
+                  HasSubstr("cannot hold the instance \"" + std::string(wrong) + "\""));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace swarmsmith

@@ -54,6 +54,7 @@ TEST(ScenarioFile, KnowsTheFunctionsOfRealScenarios) {
   EXPECT_EQ(text("normalizePath(\"../data\", mustWork = FALSE)"), "\"/data\"");
   EXPECT_EQ(text("sub(\"tune$\", \"work\", getwd())"), "\"/work\"");
   EXPECT_EQ(text("gsub(\"([a-z])[0-9]+\", \"\\\\1-\", \"a1b22c\")"), "\"a-b-c\"");
+  EXPECT_EQ(text("sub(\"run-([0-9]+)\", \"\\\\10\", \"run-7\")"), "\"70\"");
   EXPECT_EQ(text("gsub(\".\", \"$1\", \"a.b.c\", fixed = TRUE)"), "\"a$1b$1c\"");
   EXPECT_EQ(text("gsub(\"[[:space:]]\", \"$\", \"a b\")"), "\"a$b\"");
   EXPECT_EQ(text("sprintf(\"%s/%03d-%.1f%%\", \"x\", 7, 0.25)"), "\"x/007-0.2%\"");
@@ -251,6 +252,29 @@ TEST(ScenarioFile, IncludesOtherFiles) {
   EXPECT_EQ(file.settings.find("firstTest")->where, "common/base.txt:2:1");
   // As in R, every path is relative to the first file.
   EXPECT_EQ(file.settings.find("parameterFile")->folder, "/tune");
+}
+
+TEST(ScenarioFile, AFilesOwnFolderIsThatOfWhatItReads) {
+  World world;
+  world.files = {{"/tune/deeper/base.txt", "include.scenario('more.txt')\nexecDir = getwd()"},
+                 {"/tune/deeper/more.txt", "instances = readLines('list.txt')"},
+                 {"/tune/deeper/list.txt", "of deeper"},
+                 {"/tune/more.txt", "firstTest = 99"},
+                 {"/tune/list.txt", "of the scenario"}};
+  const auto file = value_of(
+      world.parse("include.scenario('deeper/base.txt')\ntestInstances = readLines('list.txt')"));
+  EXPECT_EQ(irace_value_text(file.settings.find("instances")->value), "c(\"of deeper\")");
+  EXPECT_EQ(irace_value_text(file.settings.find("execDir")->value), "\"/tune/deeper\"");
+  EXPECT_EQ(irace_value_text(file.settings.find("testInstances")->value), "c(\"of the scenario\")");
+  EXPECT_EQ(file.settings.find("firstTest"), nullptr);
+}
+
+TEST(ScenarioFile, AnEmptyTextUnsetsAListToo) {
+  const World world;
+  for (const char* text : {"\"\"", "NULL", "NA", "c()"})
+    EXPECT_EQ(world.value(std::string("testInstances = ") + text, "testInstances"),
+              world.value("testInstances = NULL", "testInstances"));
+  EXPECT_THAT(world.value("instances = c(\"a\", \"\")", "instances"), HasSubstr("\"a\""));
 }
 
 TEST(ScenarioFile, IncludesInACircleAreErrors) {

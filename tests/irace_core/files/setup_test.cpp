@@ -278,6 +278,15 @@ TEST_F(IraceSetupFiles, EverythingWrongIsReportedTogether) {
                           "is 2, and is 5"));
 }
 
+TEST_F(IraceSetupFiles, AMessageNamesAnOptionWhoseNameIsPartOfAnotherWord) {
+  write("scenario.txt",
+        "maxExperiments = 500\ntrainInstancesFile = \"list.txt\"\nmu = 11\nblockSize = 2\n");
+  EXPECT_THAT(errors(), ElementsAre(StartsWith("scenario.txt:3:1: `mu` must be a multiple of ")));
+  // irace raises it to firstTest.
+  write("scenario.txt", "maxExperiments = 500\ntrainInstancesFile = \"list.txt\"\nmu = 0\n");
+  EXPECT_THAT(errors(), IsEmpty());
+}
+
 TEST_F(IraceSetupFiles, AProgramMustBeExecutable) {
   write("plain", "echo 1\n");
   EXPECT_THAT(errors({"--target-runner", "plain"}),

@@ -35,6 +35,12 @@ TEST(MachineFile, SaysWhatItsMachineWasDesignedFor) {
   EXPECT_THAT(head_text(head), HasSubstr("#: mission = \"grid_exploration\"\n"));
 }
 
+TEST(MachineFile, MayBeginWithAByteOrderMark) {
+  const MachineHead head = head_of_a_winner();
+  const auto read = value_of(parse_machine_file("\xef\xbb\xbf" + head_text(head) + kStop, "m.fsm"));
+  EXPECT_EQ(read.front().head, head);
+}
+
 TEST(MachineFile, HasMissionsAndProfilesOfOnesOwnWhole) {
   MachineHead head = head_of_a_winner();
   head.mission->mission.name = "shelter";
